@@ -58,7 +58,9 @@ impl Gratings {
         let mut text = head(self.rows);
         let scratches = ScratchTable::new(|_| 1.0);
         let as_scratches = |row: &Grating| {
-            sent(|q| at(&scratches, row.width_um * q, row.depth_nm).map(|v| row.fill() * v))
+            sent(|q| {
+                table_value(&scratches, row.width_um * q, row.depth_nm).map(|v| row.fill() * v)
+            })
         };
         for [pitch_um, width_um] in ROWS_UM {
             for jitter in JITTERS {
@@ -74,7 +76,8 @@ impl Gratings {
                 let rows = if jitter == 0.0 { 48 } else { self.rows };
                 let blocks = blocks(&row, row_places_um, rows);
                 let table = row.table(COHERENCE_UM, |_| 1.0);
-                let by_table = sent(|q| at(&table, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
+                let by_table =
+                    sent(|q| table_value(&table, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
                 let alone = as_scratches(&row);
                 let _ = write!(text, "| {pitch_um} | {jitter} |");
                 for light in LIGHTS {
@@ -123,7 +126,7 @@ impl Gratings {
 }
 
 /// T from above.
-fn at(table: &ScratchTable, u_um: f64, depth_nm: f64) -> Rgb {
+fn table_value(table: &ScratchTable, u_um: f64, depth_nm: f64) -> Rgb {
     table.scratch_table(u_um, depth_nm)
 }
 
@@ -291,7 +294,7 @@ mod tests {
         };
         let blocks = blocks(&row, row_places_um, 32);
         let table = row.table(COHERENCE_UM, |_| 1.0);
-        let by_table = sent(|q| at(&table, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
+        let by_table = sent(|q| table_value(&table, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
         let [error, _] = off(&by_table, &blocks, 0.01);
         assert!(error < 0.03, "{error}");
         let deeper = Grating {
@@ -299,7 +302,7 @@ mod tests {
             ..row
         }
         .table(COHERENCE_UM, |_| 1.0);
-        let wrong = sent(|q| at(&deeper, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
+        let wrong = sent(|q| table_value(&deeper, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
         assert!(off(&wrong, &blocks, 0.01)[0] > 0.05);
     }
 }

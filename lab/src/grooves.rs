@@ -189,12 +189,12 @@ fn pictures(stage: &Stage, size_px: u32, model: Model, samples: u32) -> Result<(
 /// Mean and rms of scratches, and the mean of the base.
 fn cells(compared: &Compared) -> String {
     let of = |layer: &str| compared.layers.get(layer);
-    let scratches = of("scratches").map_or_else(String::new, |it| {
+    let scratches = of("scratches").map_or_else(String::new, |scratches| {
         format!(
             "{:.3} | {:.1} ± {:.1}",
-            it.mean_ratio.value,
-            100.0 * it.rms.value,
-            100.0 * it.rms.error
+            scratches.mean_ratio.value,
+            100.0 * scratches.rms.value,
+            100.0 * scratches.rms.error
         )
     });
     let base = of("base").map_or_else(String::new, |it| format!("{:.3}", it.mean_ratio.value));

@@ -143,7 +143,7 @@ impl Sequence {
     }
 
     /// The next number, scaled to [a, b).
-    pub fn between(&mut self, a: f32, b: f32) -> f32 {
+    pub fn uniform(&mut self, a: f32, b: f32) -> f32 {
         a + (b - a) * self.next()
     }
 
@@ -158,8 +158,8 @@ impl Sequence {
         if self.next() < 0.125 {
             return awkward[(self.next() * 4.0) as usize];
         }
-        let z = self.between(lowest_z, 1.0);
-        let (sin, cos) = self.between(0.0, std::f32::consts::TAU).sin_cos();
+        let z = self.uniform(lowest_z, 1.0);
+        let (sin, cos) = self.uniform(0.0, std::f32::consts::TAU).sin_cos();
         let r = (1.0 - z * z).sqrt();
         [r * cos, r * sin, z]
     }
@@ -170,10 +170,10 @@ pub fn lay_random(scene: &mut Scene, half_side_m: f32, count: u32, length_m: f32
     let mut random = Sequence(seed);
     for _ in 0..count {
         let middle =
-            Vec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0) * half_side_m;
-        let (sin, cos) = random.between(0.0, std::f32::consts::PI).sin_cos();
+            Vec3::new(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 0.0) * half_side_m;
+        let (sin, cos) = random.uniform(0.0, std::f32::consts::PI).sin_cos();
         let half = 0.5 * length_m * Vec3::new(cos, sin, 0.0);
-        let (width_um, depth_nm) = (random.between(1.0, 4.0), random.between(40.0, 400.0));
+        let (width_um, depth_nm) = (random.uniform(1.0, 4.0), random.uniform(40.0, 400.0));
         lay(scene, middle - half, middle + half, width_um, depth_nm, 1);
     }
 }

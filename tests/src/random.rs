@@ -23,7 +23,7 @@ impl Draw {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn between(&mut self, from: f64, to: f64) -> f64 {
+    fn uniform(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.one()
     }
 
@@ -32,7 +32,7 @@ impl Draw {
         from * (to / from).powf(self.one())
     }
 
-    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
+    fn choose<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[(self.one() * choices.len() as f64) as usize]
     }
 }
@@ -47,7 +47,7 @@ pub fn scene_file(seed: u64, size_px: [u32; 2]) -> String {
     );
     let may_have_gratings = material(&mut draw, &mut file);
     body(&mut draw, &mut file);
-    for _ in 0..draw.of(&[1, 1, 2]) {
+    for _ in 0..draw.choose(&[1, 1, 2]) {
         light(&mut draw, &mut file);
     }
     let marks = draw.one();
@@ -61,17 +61,17 @@ pub fn scene_file(seed: u64, size_px: [u32; 2]) -> String {
 
 /// A unit vector by ranges of the angle from z and of that about it.
 fn direction(draw: &mut Draw, least: f64, most: f64, from: f64, to: f64) -> [f64; 3] {
-    let (sin, cos) = draw.between(least, most).sin_cos();
-    let (about_sin, about_cos) = draw.between(from, to).sin_cos();
+    let (sin, cos) = draw.uniform(least, most).sin_cos();
+    let (about_sin, about_cos) = draw.uniform(from, to).sin_cos();
     [sin * about_cos, sin * about_sin, cos]
 }
 
 /// Returns whether the material may have gratings.
 fn material(draw: &mut Draw, file: &mut String) -> bool {
     let roughness = draw.scale(0.03, 0.6);
-    let metal = draw.of(&["steel", "aluminium", "copper", "gold", "silver", "chromium"]);
-    let color = [(); 3].map(|()| (draw.between(0.05, 0.9) * 100.0).round() / 100.0);
-    let kind = draw.of(&[
+    let metal = draw.choose(&["steel", "aluminium", "copper", "gold", "silver", "chromium"]);
+    let color = [(); 3].map(|()| (draw.uniform(0.05, 0.9) * 100.0).round() / 100.0);
+    let kind = draw.choose(&[
         "metal",
         "brushed",
         "dielectric",
@@ -83,12 +83,12 @@ fn material(draw: &mut Draw, file: &mut String) -> bool {
         "metal" => format!("kind = \"metal\"\nmetal = \"{metal}\""),
         "brushed" => format!(
             "kind = \"metal\"\nmetal = \"{metal}\"\nanisotropy = {:.2}\nanisotropy_direction_deg = {:.0}",
-            draw.between(0.2, 0.9),
-            draw.between(0.0, 180.0)
+            draw.uniform(0.2, 0.9),
+            draw.uniform(0.0, 180.0)
         ),
         "dielectric" => format!(
             "kind = \"dielectric\"\nbase_color = {color:?}\nior = {:.2}",
-            draw.between(1.3, 1.8)
+            draw.uniform(1.3, 1.8)
         ),
         "mixed" => format!(
             "kind = \"metallic-roughness\"\nbase_color = {color:?}\nmetallic = {:.2}",
@@ -100,7 +100,7 @@ fn material(draw: &mut Draw, file: &mut String) -> bool {
         ),
         _ => format!(
             "kind = \"metal\"\nmetal = \"{metal}\"\ncover = {{ ior = {:.2} }}",
-            draw.between(1.4, 1.7)
+            draw.uniform(1.4, 1.7)
         ),
     };
     let _ = writeln!(
@@ -111,7 +111,7 @@ fn material(draw: &mut Draw, file: &mut String) -> bool {
 }
 
 fn body(draw: &mut Draw, file: &mut String) {
-    let shape = draw.of(&[
+    let shape = draw.choose(&[
         "disk = { radius_m = 0.05 }",
         "plane = { size_m = [0.1, 0.1] }",
         "cylinder = { radius_m = 0.03, height_m = 0.06, rounding_m = 0.004 }",
@@ -123,14 +123,14 @@ fn body(draw: &mut Draw, file: &mut String) {
     let _ = writeln!(
         file,
         "[[object]]\nname = \"o\"\nshape = {{ {shape} }}\nmaterial = \"m\"\nrotation_deg = [{:.1}, {:.1}, {:.1}]",
-        draw.between(-25.0, 25.0),
-        draw.between(-25.0, 25.0),
-        draw.between(0.0, 360.0)
+        draw.uniform(-25.0, 25.0),
+        draw.uniform(-25.0, 25.0),
+        draw.uniform(0.0, 360.0)
     );
 }
 
 fn light(draw: &mut Draw, file: &mut String) {
-    let kind = draw.of(&[
+    let kind = draw.choose(&[
         "sphere",
         "disk",
         "rectangle",
@@ -159,7 +159,7 @@ fn light(draw: &mut Draw, file: &mut String) {
     let center = [x, y, z].map(|v| v * distance);
     let [x, y, z] = center;
     let size = draw.scale(0.01, 0.5) * distance;
-    let turn = draw.between(0.0, TAU);
+    let turn = draw.uniform(0.0, TAU);
     let ((turn_sin, turn_cos), turn_deg) = (turn.sin_cos(), turn.to_degrees());
     let thin = size * draw.scale(0.01, 0.2);
     let at = format!("center_m = [{x:.4}, {y:.4}, {z:.4}]\ntarget_m = [0.0, 0.0, 0.0]");
@@ -195,7 +195,7 @@ fn light(draw: &mut Draw, file: &mut String) {
                 let at: [f64; 3] = std::array::from_fn(|k| center[k] + a * u[k] + b * v[k]);
                 format!("[{:.8}, {:.8}, {:.8}]", at[0], at[1], at[2])
             };
-            let skew = draw.between(-0.4, 0.4);
+            let skew = draw.uniform(-0.4, 0.4);
             let corners = [
                 [-1.0, -1.0],
                 [1.0, -1.0],
@@ -209,7 +209,7 @@ fn light(draw: &mut Draw, file: &mut String) {
             )
         }
         _ => {
-            let end = [turn_cos, turn_sin, draw.between(-0.5, 0.5)].map(|v| 0.5 * size * v);
+            let end = [turn_cos, turn_sin, draw.uniform(-0.5, 0.5)].map(|v| 0.5 * size * v);
             let at = |sign: f64| {
                 let at: [f64; 3] = std::array::from_fn(|k| center[k] + sign * end[k]);
                 format!("[{:.4}, {:.4}, {:.4}]", at[0], at[1], at[2])
@@ -229,10 +229,10 @@ fn scratches(draw: &mut Draw, file: &mut String) {
         file,
         "[[scratches]]\nobject = \"o\"\npattern = \"{}\"\ncount = {:.0}\nlength_m = {{ mean = 0.01, spread = 0.4 }}\n\
          width_um = {{ mean = {:.2}, spread = 0.2 }}\ndepth_nm = {{ mean = {:.0}, spread = 0.15 }}",
-        draw.of(&["random", "parallel", "circular", "radial"]),
+        draw.choose(&["random", "parallel", "circular", "radial"]),
         draw.scale(2e3, 3e4),
         draw.scale(1.0, 6.0),
-        draw.between(100.0, 300.0)
+        draw.uniform(100.0, 300.0)
     );
 }
 
@@ -241,9 +241,9 @@ fn grating(draw: &mut Draw, file: &mut String) {
     let _ = writeln!(
         file,
         "[[grating]]\nobject = \"o\"\npattern = \"{}\"\npitch_um = {pitch:.2}\nwidth_um = {:.3}\ndepth_nm = {:.0}\ntheory = \"scalar\"",
-        draw.of(&["parallel", "circular", "radial"]),
-        pitch * draw.between(0.3, 0.6),
-        draw.between(50.0, 200.0)
+        draw.choose(&["parallel", "circular", "radial"]),
+        pitch * draw.uniform(0.3, 0.6),
+        draw.uniform(50.0, 200.0)
     );
 }
 

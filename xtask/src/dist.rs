@@ -105,7 +105,7 @@ impl Dist {
         let tools = wheel::environment(&self.python, &work, &packages)
             .map_err(|error| format!("no Python with venv and {}: {error}", packages.join(", ")));
         let mut release = Release {
-            crates: crates::Crates::of(&root)?,
+            crates: crates::Crates::read(&root)?,
             at: Place {
                 time: archive::time(&root)?,
                 root,

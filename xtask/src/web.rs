@@ -136,7 +136,7 @@ fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
         let file = format!("{title}.toml");
         fs::write(copies.join(&file), &text)?;
         thumbnail(&picture, &copies.join(format!("{title}.jpg")), 320)?;
-        list.push(json!({ "file": file, "title": title, "about": about(&text) }));
+        list.push(json!({ "file": file, "title": title, "about": first_sentence(&text) }));
         for input in description.inputs(Path::new("")) {
             let copy = copies.join(&input.path);
             fs::create_dir_all(copy.parent().unwrap_or(&copies))?;
@@ -148,7 +148,7 @@ fn copy_page(root: &Path, output: &Path) -> anyhow::Result<()> {
 }
 
 /// The first sentence of the comment that a scene begins with.
-fn about(text: &str) -> String {
+fn first_sentence(text: &str) -> String {
     let comment = text.lines().map_while(|line| line.strip_prefix('#'));
     let whole = comment.map(str::trim).collect::<Vec<_>>().join(" ");
     let end = whole.find(". ").map_or(whole.len(), |end| end + 1);

@@ -153,7 +153,7 @@ impl Wheel {
             let types = ["-m", "mypy", &cache];
             run(python().current_dir(&package).args(types))
         };
-        let (wheel, types) = beside(make, check_types)?;
+        let (wheel, types) = run_both(make, check_types)?;
         let (wheel, ()) = (wheel?, types?);
         // The stubs agree with the compiled part.
         let stubs = ["-m", "mypy.stubtest", "hairline._hairline", "--concise"];
@@ -186,7 +186,7 @@ impl Wheel {
         };
         // A cluster's tests mostly wait for workers.
         let cluster = "test_cluster or test_documents";
-        let (others, cluster) = beside(
+        let (others, cluster) = run_both(
             || tests(&["-k", &format!("not ({cluster})")]),
             || tests(&["-k", cluster]).and_then(|()| notebooks()),
         )?;
@@ -198,7 +198,7 @@ impl Wheel {
 }
 
 /// Runs both at once: each waits for one core at times, and for the disk.
-fn beside<A: Send, B: Send>(
+fn run_both<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,
 ) -> anyhow::Result<(A, B)> {

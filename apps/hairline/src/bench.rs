@@ -55,7 +55,7 @@ pub fn run(arguments: &cli::Bench) -> Result<(), Failure> {
         check_writable(path)?;
     }
     let mut worker = Worker::open(arguments.backend)?;
-    let machine = Machine::of(&worker);
+    let machine = Machine::describe(&worker);
     tell(format_args!("measuring on {}", machine.in_words()));
     let figures = measure(arguments, &mut worker, machine)?;
     let text = text::document(&figures);
@@ -85,7 +85,7 @@ fn measure(
     worker: &mut Worker,
     machine: Machine,
 ) -> Result<Figures, Failure> {
-    let thoroughness = Thoroughness::of(arguments);
+    let thoroughness = Thoroughness::from_arguments(arguments);
     let base = stage(
         arguments,
         if arguments.quick {

@@ -65,7 +65,7 @@ pub fn run(arguments: &cli::Export) -> Result<(), Failure> {
 /// Contents of the file, by its ending and the flags.
 fn contents(arguments: &cli::Export) -> Result<Export, Failure> {
     let output = &arguments.output;
-    let format = Format::of(output).ok_or_else(|| {
+    let format = Format::from_path(output).ok_or_else(|| {
         Failure::Input(anyhow!(
             "--output: found \"{}\"; {}",
             output.display(),

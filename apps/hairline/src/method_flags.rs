@@ -109,7 +109,7 @@ impl MethodFlags {
     }
 
     /// Shortest set of flags for `method`.
-    fn of(method: &Method) -> Self {
+    fn from_method(method: &Method) -> Self {
         let (whole, base) = match method.published {
             None => (MethodName::Default, Method::default()),
             Some(_) => (MethodName::Published, Method::PUBLISHED),
@@ -152,7 +152,7 @@ impl MethodFlags {
 
 /// Text of the shortest set of flags for a method; empty for the default.
 pub fn flags_of(method: &Method) -> String {
-    MethodFlags::of(method).given().join(" ")
+    MethodFlags::from_method(method).given().join(" ")
 }
 
 fn written(flag: &str, value: impl ValueEnum) -> String {

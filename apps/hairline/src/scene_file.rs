@@ -306,7 +306,7 @@ impl Source {
             let name = PathBuf::from("stdin");
             let text = reading::scene_text_of(std::io::stdin().lock());
             return Ok(Self {
-                text: text.map_err(|error| error.at(&name, None))?,
+                text: text.map_err(|error| error.with_position(&name, None))?,
                 name,
                 folder: PathBuf::new(),
                 model: None,

@@ -29,21 +29,21 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     while !interrupt.is_asked() {
         // Before it is read: a change meanwhile is seen.
-        let before = Stamps::of(scene);
+        let before = Stamps::read(scene);
         match render::run(arguments) {
             Ok(()) => tell("waiting for a change of the scene; Ctrl-C ends it"),
             Err(failure) => tell(format_args!(
                 "error: {failure}\nwaiting for a change of the scene; Ctrl-C ends it"
             )),
         }
-        while !interrupt.is_asked() && Stamps::of(scene) == before {
+        while !interrupt.is_asked() && Stamps::read(scene) == before {
             std::thread::sleep(EVERY);
         }
         // A file that is being written is left alone until it no longer changes.
-        let mut last = Stamps::of(scene);
+        let mut last = Stamps::read(scene);
         while !interrupt.is_asked() {
             std::thread::sleep(EVERY);
-            let now = Stamps::of(scene);
+            let now = Stamps::read(scene);
             if std::mem::replace(&mut last, now.clone()) == now {
                 break;
             }
@@ -57,7 +57,7 @@ pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
 struct Stamps(Vec<(PathBuf, Option<(SystemTime, u64)>)>);
 
 impl Stamps {
-    fn of(scene: &Path) -> Self {
+    fn read(scene: &Path) -> Self {
         let folder = scene.parent().unwrap_or(Path::new(""));
         let text = hairline_document::reading::scene_text(scene).ok();
         let description = text.and_then(|text| Description::from_toml(&text, scene).ok());

@@ -72,8 +72,8 @@ mod tests {
             .metal("steel", "steel")
             .object("disk", "steel", "disk = { radius_m = 0.1 }")
             .random("disk", 400)
-            .with("seed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
-            .with("width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }")
+            .with_lines("seed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
+            .with_lines("width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }")
             .sphere([0.0, 0.3, 0.2], 0.02, 50.0)
             .scene();
         let prepared = Prepared::new(&scene);

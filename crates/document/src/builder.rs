@@ -216,7 +216,7 @@ impl<'a> Work<'a> {
             let Some(file) = &described.picture else {
                 continue;
             };
-            let stamp = Stamp::of(&self.base_dir.join(file));
+            let stamp = Stamp::read(&self.base_dir.join(file));
             let known = self
                 .new
                 .picture(&stamp)

@@ -54,7 +54,7 @@ impl Error {
 
     /// Sets the place of the mistake, unless a more exact one is known already.
     #[must_use]
-    pub fn at(mut self, file: &Path, line: Option<usize>) -> Self {
+    pub fn with_position(mut self, file: &Path, line: Option<usize>) -> Self {
         self.place.get_or_insert_with(|| FilePosition {
             file: file.to_owned(),
             line,
@@ -81,7 +81,7 @@ impl Error {
     #[must_use]
     pub fn in_scene_file(self, text: &str, name: &Path) -> Self {
         let line = line_of_key(text, &self.key);
-        self.at(name, line)
+        self.with_position(name, line)
     }
 
     /// The file that holds the mistake; `None` for a description that came from no file.

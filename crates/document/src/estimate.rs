@@ -32,7 +32,7 @@ pub struct Estimate {
 impl Estimate {
     /// Estimates a whole scene and its picture, without its scratches. Of files only the heads are read; what cannot be read counts
     /// nothing.
-    pub fn of(description: &Description, base_dir: impl Into<FilePath>) -> Self {
+    pub fn from_description(description: &Description, base_dir: impl Into<FilePath>) -> Self {
         let base_dir = &with_packed(base_dir);
         let mut estimate = Self::default();
         estimate.add_lights(description);
@@ -82,7 +82,7 @@ impl Estimate {
             triangles,
             vertices,
             file_bytes,
-        } = ObjectCounts::of(object, base_dir);
+        } = ObjectCounts::read(object, base_dir);
         let (key, remedy) = match &object.surface {
             Surface::Mesh(_) => ("mesh", "take a model of fewer triangles"),
             Surface::Shape(Shape::Lathe { .. }) => {
@@ -205,7 +205,7 @@ struct ObjectCounts {
 }
 
 impl ObjectCounts {
-    fn of(object: &Object, base_dir: &FilePath) -> Self {
+    fn read(object: &Object, base_dir: &FilePath) -> Self {
         match &object.surface {
             Surface::Shape(shape) => {
                 let [triangles, vertices] = crate::shape::size(shape);
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn what_is_large_is_named() {
         // 60 kB of text, 22 million triangles.
-        let estimate = Estimate::of(&described(&lathe(2700, 4096)), Path::new(""));
+        let estimate = Estimate::from_description(&described(&lathe(2700, 4096)), Path::new(""));
         let error = estimate.check(4e9).unwrap_err();
         assert_eq!(error.key(), "object[0].shape.lathe");
         assert!(error.found().contains("22110208 triangles"), "{error}");
@@ -265,7 +265,7 @@ mod tests {
     fn what_is_much_is_named_together() {
         let disks =
             "[[object]]\nname = \"a\"\nmaterial = \"m\"\nshape.disk.radius_m = 1\n".repeat(100);
-        let estimate = Estimate::of(&described(&disks), Path::new(""));
+        let estimate = Estimate::from_description(&described(&disks), Path::new(""));
         let error = estimate.check(1e6).unwrap_err();
         assert_eq!(error.key(), "object");
         assert!(error.found().contains("101 parts"), "{error}");
@@ -273,7 +273,7 @@ mod tests {
 
     #[test]
     fn a_scene_of_few_triangles_is_small() {
-        let estimate = Estimate::of(&described(&lathe(10, 64)), Path::new(""));
+        let estimate = Estimate::from_description(&described(&lathe(10, 64)), Path::new(""));
         assert!(estimate.bytes() < 2e6, "{}", estimate.bytes());
     }
 }

@@ -28,7 +28,7 @@ impl Format {
     pub const RIGHT: &str = "must end in .glb or .usdz";
 
     /// The kind of a file by its ending.
-    pub fn of(path: &Path) -> Option<Self> {
+    pub fn from_path(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
         let [glb, usdz] = Self::ENDINGS.map(|it| ending.eq_ignore_ascii_case(it));
         if usdz {

@@ -28,10 +28,12 @@ impl Description {
 
     /// Files of the scene's models, with the paths as written.
     pub fn mesh_files(&self) -> impl Iterator<Item = &Path> {
-        self.objects.iter().filter_map(|it| match &it.surface {
-            Surface::Mesh(file) => Some(file.as_path()),
-            Surface::Shape(_) => None,
-        })
+        self.objects
+            .iter()
+            .filter_map(|object| match &object.surface {
+                Surface::Mesh(file) => Some(file.as_path()),
+                Surface::Shape(_) => None,
+            })
     }
 
     /// Cameras of the models' files: their names, their nodes' names, or their numbers. What cannot be read has none.

@@ -56,8 +56,11 @@ impl Object {
 
 /// Notes on the contents whose absence changes the picture, a line each.
 pub(crate) fn notes(file: &Path, left_out: &[LeftOut]) -> Vec<String> {
-    let line = |it: &LeftOut| {
-        let what = format!("{} ({}) left out; {}", it.what, it.count, it.meaning);
+    let line = |content: &LeftOut| {
+        let what = format!(
+            "{} ({}) left out; {}",
+            content.what, content.count, content.meaning
+        );
         note(file, &what)
     };
     left_out.iter().filter(|it| it.matters).map(line).collect()

@@ -51,19 +51,19 @@ impl Description {
         match gltf_scene::reading::read(path) {
             Some(Ok(scene)) => Ok(scene),
             Some(Err(error)) => {
-                let mut plain = Self::around(path)?;
+                let mut plain = Self::from_plain_model(path)?;
                 plain.scratches.clear();
                 plain
                     .notes
                     .push(format!("{error}; the model is shown plain"));
                 Ok(plain)
             }
-            None => Self::around(path),
+            None => Self::from_plain_model(path),
         }
     }
 
     /// A scene around a model.
-    fn around(path: &FilePath) -> Result<Self, Error> {
+    fn from_plain_model(path: &FilePath) -> Result<Self, Error> {
         let ProbedMesh {
             mesh,
             materials,
@@ -92,7 +92,7 @@ impl Description {
         let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
         let from_middle = |p: DVec3| turned(p - summary.moved_from.unwrap_or(DVec3::ZERO));
         let lights = mesh_file::lights(path)
-            .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
+            .map_err(|flaw| Error::new("", flaw.found, flaw.right).with_position(path, None))?;
         let mut lamps = Vec::new();
         for (i, light) in lights.iter().enumerate() {
             match lights::lamp(light, extent_m, factor, [&turned, &from_middle]) {

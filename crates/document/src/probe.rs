@@ -101,10 +101,10 @@ pub(crate) fn read_mesh(path: &FilePath) -> Result<ProbedMesh, Error> {
         free_bytes: budget_bytes() as f64,
     };
     let mesh = mesh_file::read(path, None, &DMat4::IDENTITY, &Placing::NONE, stock)
-        .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(path, None))?;
+        .map_err(|flaw| Error::new("", flaw.found, flaw.right).with_position(path, None))?;
     if mesh.triangles.is_empty() {
         let right = "must have triangles that span an area";
-        return Err(Error::new("", "it has no surface", right).at(path, None));
+        return Err(Error::new("", "it has no surface", right).with_position(path, None));
     }
     let is_metal: Vec<bool> = materials.iter().map(|it| is_metal(it, &textures)).collect();
     let metals = mesh
@@ -154,7 +154,7 @@ pub fn environment(path: impl Into<FilePath>) -> Result<EnvironmentSummary, Erro
         let message = error.to_string();
         let found = message.strip_prefix(&format!("{}: ", path.display()));
         let right = "must be an equirectangular .hdr or .exr";
-        Error::new("", found.unwrap_or(&message), right).at(&path, None)
+        Error::new("", found.unwrap_or(&message), right).with_position(&path, None)
     })?;
     Ok(EnvironmentSummary {
         size_px: map.size_px,

@@ -21,12 +21,12 @@ const TEXT_BYTES: f64 = 64.0;
 pub fn scene_text(path: impl Into<FilePath>) -> Result<String, Error> {
     let path = path.into();
     refuse_other_model(&path)
-        .map_err(|flaw| Error::new("", flaw.found, flaw.right).at(&path, None))?;
+        .map_err(|flaw| Error::new("", flaw.found, flaw.right).with_position(&path, None))?;
     let bytes = read(&path, FileKind::FileOrPipe, TEXT_SHARE).map_err(|reason| {
         let found = format!("cannot be read ({reason})");
-        Error::new("", found, "give the path of a scene file (TOML)").at(&path, None)
+        Error::new("", found, "give the path of a scene file (TOML)").with_position(&path, None)
     })?;
-    text_of(bytes).map_err(|error| error.at(&path, None))
+    text_of(bytes).map_err(|error| error.with_position(&path, None))
 }
 
 /// The text of a scene that comes from a stream, read within the same limits.

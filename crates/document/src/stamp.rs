@@ -13,7 +13,7 @@ pub(crate) struct Stamp {
 
 impl Stamp {
     /// Stamp of a file, or of what is in one.
-    pub(crate) fn of(path: &FilePath) -> Self {
+    pub(crate) fn read(path: &FilePath) -> Self {
         Self {
             path: path.clone(),
             facts: packed::file_of(path).facts().ok(),
@@ -21,6 +21,6 @@ impl Stamp {
     }
 
     pub(crate) fn is_current(&self) -> bool {
-        *self == Self::of(&self.path)
+        *self == Self::read(&self.path)
     }
 }

@@ -146,7 +146,7 @@ impl PhotoSet {
             .clamp(low, high)
             .to_radians();
         let (sin, cos) = elevation_rad.sin_cos();
-        let center_m = self.at(studio, 4.1 * DVec3::new(-0.2, cos, sin));
+        let center_m = self.world_point_m(studio, 4.1 * DVec3::new(-0.2, cos, sin));
         lights.push(Light {
             name: Some("lamp".to_owned()),
             radiance: 800.0 * studio.intensity,
@@ -157,7 +157,7 @@ impl PhotoSet {
     }
 
     /// Right of, behind and above the set, in its radii.
-    fn at(&self, studio: &Studio, place: DVec3) -> DVec3 {
+    fn world_point_m(&self, studio: &Studio, place: DVec3) -> DVec3 {
         let turn = glam::DQuat::from_axis_angle(self.up, studio.rotation_deg.to_radians());
         let way = place.x * self.right + place.y * self.ahead + place.z * self.up;
         self.base_m + self.radius_m * (turn * way)
@@ -166,14 +166,14 @@ impl PhotoSet {
     pub(crate) fn soft_box(&self, studio: &Studio, soft_box: &SoftBox) -> Light {
         let [width, height] = soft_box.size;
         let mut kind = LightKind::Rectangle {
-            center_m: self.at(studio, soft_box.at.into()).into(),
-            target_m: self.at(studio, DVec3::new(0.0, 0.0, 0.4)).into(),
+            center_m: self.world_point_m(studio, soft_box.at.into()).into(),
+            target_m: self.world_point_m(studio, DVec3::new(0.0, 0.0, 0.4)).into(),
             width_m: width * self.radius_m,
             height_m: height * self.radius_m,
             rotation_deg: 0.0,
             two_sided: false,
         };
-        kind.lay_width_along(self.at(studio, soft_box.along) - self.base_m);
+        kind.lay_width_along(self.world_point_m(studio, soft_box.along) - self.base_m);
         Light {
             name: Some(soft_box.name.to_owned()),
             radiance: soft_box.radiance * studio.intensity,

@@ -173,7 +173,7 @@ impl Pending {
     pub fn recover(&self) -> Result<Document, Error> {
         let text = std::fs::read_to_string(&self.file).map_err(|error| {
             let found = format!("cannot be read ({error})");
-            Error::new("", found, "must be an autosave").at(&self.file, None)
+            Error::new("", found, "must be an autosave").with_position(&self.file, None)
         })?;
         let description = Description::from_toml(&text, &self.file)?;
         let base_dir = header(&text, FOLDER).map_or_else(PathBuf::new, PathBuf::from);

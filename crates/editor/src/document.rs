@@ -231,7 +231,7 @@ impl Document {
 
     /// The description before the newest step; none where steps were undone.
     pub fn before_step(&self) -> Option<&Arc<Description>> {
-        self.history.before()
+        self.history.previous()
     }
 
     /// Takes the newest step back for good, as if it had been refused; its label.

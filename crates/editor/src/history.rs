@@ -16,7 +16,7 @@ pub struct DragKey(pub u64);
 
 impl DragKey {
     /// The key of whatever names a widget.
-    pub fn of(name: impl Hash) -> Self {
+    pub fn from_name(name: impl Hash) -> Self {
         let mut hasher = DefaultHasher::new();
         name.hash(&mut hasher);
         Self(hasher.finish())
@@ -87,7 +87,7 @@ impl History {
     }
 
     /// The description before the newest step; none after steps back.
-    pub(crate) fn before(&self) -> Option<&Arc<Description>> {
+    pub(crate) fn previous(&self) -> Option<&Arc<Description>> {
         let newest = self.undo.back().filter(|_| self.redo.is_empty());
         newest.map(|step| &step.other.description)
     }

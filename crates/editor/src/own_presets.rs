@@ -149,7 +149,7 @@ fn read(path: &Path) -> Result<Description, String> {
     if parts.materials.is_empty() && parts.scratches.is_empty() && parts.lights.is_empty() {
         let right = "must have at least one `[[material]]`, `[[scratches]]` or `[[light]]`";
         let error = Error::new("", "found none of the tables of a preset", right);
-        return Err(error.at(path, None).to_string());
+        return Err(error.with_position(path, None).to_string());
     }
     Ok(parts)
 }

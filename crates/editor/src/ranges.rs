@@ -37,7 +37,7 @@ const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
 /// # Panics
 /// Where the schema has no control for the key.
 pub fn range(key: &Key, diagonal_m: f64) -> Range {
-    of(key, key.control.as_ref(), diagonal_m)
+    control_range(key, key.control.as_ref(), diagonal_m)
 }
 
 /// The control of the second of a key's numbers: a spread, an outer radius.
@@ -45,10 +45,10 @@ pub fn range(key: &Key, diagonal_m: f64) -> Range {
 /// # Panics
 /// Where the schema has none for the key.
 pub fn second_range(key: &Key, diagonal_m: f64) -> Range {
-    of(key, key.second.as_ref(), diagonal_m)
+    control_range(key, key.second.as_ref(), diagonal_m)
 }
 
-fn of(key: &Key, control: Option<&Control>, diagonal_m: f64) -> Range {
+fn control_range(key: &Key, control: Option<&Control>, diagonal_m: f64) -> Range {
     let control = control.unwrap_or_else(|| panic!("{} has no control", key.name));
     let d = match diagonal_m.is_finite() && diagonal_m > 0.0 {
         true => diagonal_m.clamp(1e-3, 100.0),
@@ -88,7 +88,7 @@ mod tests {
         let ranges = keys.filter(|key| key.has_sliders()).flat_map(|key| {
             let both = [key.control.as_ref(), key.second.as_ref()];
             let controls = both.into_iter().flatten();
-            controls.map(move |control| (key.name, of(key, Some(control), diagonal_m)))
+            controls.map(move |control| (key.name, control_range(key, Some(control), diagonal_m)))
         });
         ranges.collect()
     }
@@ -113,7 +113,7 @@ mod tests {
             for control in [&key.control, &key.second].into_iter().flatten() {
                 let slider = control.slider;
                 if slider.power_of_size == 0 {
-                    let range = of(key, Some(control), 0.3);
+                    let range = control_range(key, Some(control), 0.3);
                     assert_eq!(range.slider, slider.from..=slider.to, "{}", key.name);
                 }
             }

@@ -50,7 +50,7 @@ impl StrengthSlider {
     }
 
     /// The position, from 0 to 1.
-    pub fn at(&self) -> f64 {
+    pub fn position(&self) -> f64 {
         self.at
     }
 
@@ -197,7 +197,7 @@ mod tests {
     fn strength_moves_count_width_and_depth_and_comes_back() {
         let first = LayerPreset::RandomWear.layer("o", 0.2);
         let slider = StrengthSlider::new(&first, 0.2, None).unwrap();
-        let is = slider.at();
+        let is = slider.position();
         assert!((0.2..0.9).contains(&is), "{is}");
         let mut same = first.clone();
         slider.clone().go(is, &mut same);
@@ -205,7 +205,7 @@ mod tests {
         let at = |wanted: f64| {
             let mut layer = first.clone();
             slider.clone().go(wanted, &mut layer);
-            let now = StrengthSlider::new(&layer, 0.2, None).unwrap().at();
+            let now = StrengthSlider::new(&layer, 0.2, None).unwrap().position();
             assert!((now - wanted).abs() < 0.01, "{now}, not {wanted}");
             let laid = laid(&layer);
             [count(&layer), laid.width_um.mean, laid.depth_nm.mean]
@@ -230,7 +230,7 @@ mod tests {
         (laid.width_um.mean, laid.depth_nm.mean) = (100.0, 1990.0);
         let mut layer = first.clone();
         let mut slider = StrengthSlider::new(&layer, 0.2, None).unwrap();
-        assert_eq!(slider.at(), 1.0);
+        assert_eq!(slider.position(), 1.0);
         for at in [0.0, 0.4, 1.0] {
             // Each pass of a window asks for the slider of the layer anew.
             slider = StrengthSlider::new(&layer, 0.2, Some(slider)).unwrap();
@@ -242,7 +242,7 @@ mod tests {
         slider.go(0.0, &mut weak);
         let slider = StrengthSlider::new(&first, 0.2, Some(slider)).unwrap();
         let mut slider = StrengthSlider::new(&weak, 0.2, Some(slider)).unwrap();
-        assert!(slider.at() < 0.01, "{}", slider.at());
+        assert!(slider.position() < 0.01, "{}", slider.position());
         slider.go(1.0, &mut weak);
         assert!(
             (count(&weak) / 10_000.0 - 1.0).abs() < 0.1,
@@ -266,7 +266,7 @@ mod tests {
             },
         });
         let mut slider = slider(&layer).unwrap();
-        slider.go(slider.at() - 0.2, &mut layer);
+        slider.go(slider.position() - 0.2, &mut layer);
         let Brush::Paint { density_per_m, .. } = layer.strokes[0].brush else {
             panic!("it paints");
         };

@@ -101,7 +101,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
 fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
     let open = match &options.kinds {
         Some(kinds) => quote!(Table::of_kind::<#kinds>(Self::KEYS, value, key)?),
-        None => quote!(Table::of(Self::KEYS, value, key)?),
+        None => quote!(Table::read_entries(Self::KEYS, value, key)?),
     };
     let read = options.is_table.then(|| {
         quote! {

@@ -56,10 +56,10 @@ impl Head<'_> {
     /// A length or an offset: no more than there are bytes.
     fn length(&self, at: usize) -> Result<usize, Broken> {
         let (low, high) = (self.u32(at)?, self.u32(at + 4)?);
-        self.within(u64::from(high) << 32 | u64::from(low))
+        self.checked_length(u64::from(high) << 32 | u64::from(low))
     }
 
-    fn within(&self, length: u64) -> Result<usize, Broken> {
+    fn checked_length(&self, length: u64) -> Result<usize, Broken> {
         if length > self.0.len() as u64 {
             return Err(Broken("it is cut off".to_owned()));
         }
@@ -91,7 +91,7 @@ impl Head<'_> {
         }
         // The description of the texels, keys and values, and what all levels share.
         for at in [48, 52, 56, 60] {
-            self.within(self.u32(at)?.into())?;
+            self.checked_length(self.u32(at)?.into())?;
         }
         let (shared, _) = (self.length(64)?, self.length(72)?);
         let levels = levels?.clamp(1, 32) as usize;
@@ -104,11 +104,11 @@ impl Head<'_> {
         if scheme == BASIS_LZ {
             // Ranges of the endpoints, the selectors and the tables, then of the slices of each level.
             for at in [4, 8, 12] {
-                self.within(self.u32(shared + at)?.into())?;
+                self.checked_length(self.u32(shared + at)?.into())?;
             }
             for slice in (0..levels).map(|level| shared + 20 + 20 * level) {
                 for at in [4, 8, 12, 16] {
-                    self.within(self.u32(slice + at)?.into())?;
+                    self.checked_length(self.u32(slice + at)?.into())?;
                 }
             }
         }

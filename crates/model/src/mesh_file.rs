@@ -227,7 +227,7 @@ pub fn object_from_file(
 
 /// The lights of a file, in its own frame.
 pub fn lights(path: &FilePath) -> Result<Vec<Punctual>, Flaw> {
-    lights::of(&parse(path, OptionalElements::default())?.0.document)
+    lights::read_lights(&parse(path, OptionalElements::default())?.0.document)
 }
 
 /// The folder from which a file's own paths start.
@@ -245,7 +245,7 @@ pub(crate) fn file(path: &FilePath) -> Result<Translated, Flaw> {
         )
     })?;
     drop_order_mark(&mut bytes);
-    match OtherFormat::of(path) {
+    match OtherFormat::from_path(path) {
         Some(_) if bytes.is_empty() => Err(Flaw::new("it is empty", "must be a whole file")),
         Some(format) => format.translated(path, &bytes),
         None => Ok(Translated {

@@ -26,7 +26,7 @@ pub(crate) enum OtherFormat {
 
 impl OtherFormat {
     /// The format of the file that a path leads into; none of glTF and of unknown ones.
-    pub(crate) fn of(path: &FilePath) -> Option<Self> {
+    pub(crate) fn from_path(path: &FilePath) -> Option<Self> {
         let file = packed::file_of(path);
         let ending = file.extension()?;
         let formats = [("obj", Self::Obj), ("stl", Self::Stl)];

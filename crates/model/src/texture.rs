@@ -179,7 +179,7 @@ pub struct Texels {
 }
 
 /// An image with its mip chain; or with the first level alone.
-pub fn of(image: Texels, channels: Channels, with_mips: bool) -> Texture {
+pub fn build_texture(image: Texels, channels: Channels, with_mips: bool) -> Texture {
     let Texels {
         size_px,
         mut texels,

@@ -11,8 +11,8 @@ fn build(c: &mut Criterion) {
             .mirror("m")
             .object("o", "m", "sphere = { radius_m = 0.05 }")
             .random("o", count)
-            .with("seed = 1\nlength_m = { mean = 0.01, spread = 0.5 }\nwidth_um = 2.0\ndepth_nm = 200.0")
-            .with("curvature_per_m = { mean = 0.0, spread = 4.0 }")
+            .with_lines("seed = 1\nlength_m = { mean = 0.01, spread = 0.5 }\nwidth_um = 2.0\ndepth_nm = 200.0")
+            .with_lines("curvature_per_m = { mean = 0.0, spread = 4.0 }")
             .scene();
         let index = ScratchIndex::laid(&scene);
         let mut group = c.benchmark_group(format!("{count} scratches"));

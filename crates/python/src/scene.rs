@@ -100,7 +100,7 @@ pub(crate) fn export(
     let py = table.py();
     let mut stock = Stock::default();
     let description = described(py, stock.table(table)?)?;
-    let format = Format::of(&path).ok_or_else(|| {
+    let format = Format::from_path(&path).ok_or_else(|| {
         let found = format!("found {:?}", path.display().to_string());
         errors::of_argument("path", found, Format::RIGHT)
     })?;
@@ -311,7 +311,7 @@ impl Built {
                 segments + object.segments.len(),
             ]
         });
-        let surfaces = Estimate::of(&self.description, &self.folder).bytes();
+        let surfaces = Estimate::from_description(&self.description, &self.folder).bytes();
         let all = surfaces + scratches_bytes(scratches, segments) + textures_bytes(&self.scene);
         (all, available_bytes().map(|bytes| bytes as f64))
     }

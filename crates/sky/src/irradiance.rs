@@ -19,7 +19,7 @@ pub(super) fn blur(map: &Picture) -> Picture {
         return source;
     }
     let mut sums = Mip::empty(IRRADIANCE_SIZE_PX);
-    sums.add(&Mip::of(&source), |size, v, _| row_taps(size, v));
+    sums.add(&Mip::from_picture(&source), |size, v, _| row_taps(size, v));
     let mut blurred = sums.picture();
     round_to_half(&mut blurred);
     blurred

@@ -26,7 +26,7 @@ pub(super) struct Mip {
 const CHANNELS: usize = 3;
 
 impl Mip {
-    pub(super) fn of(map: &Picture) -> Self {
+    pub(super) fn from_picture(map: &Picture) -> Self {
         let [width, height] = map.size_px.map(|n| n as usize);
         let rows = map.rgb.chunks_exact(width);
         let lines = rows.flat_map(|row| (0..CHANNELS).flat_map(|c| row.iter().map(move |t| t[c])));

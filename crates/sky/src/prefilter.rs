@@ -51,10 +51,10 @@ fn uniform_levels(sharp: &Picture) -> Vec<Picture> {
 
 fn mip_chain(sharp: &Picture) -> Vec<Mip> {
     let mut last = sharp.clone();
-    let mut mips = vec![Mip::of(&last)];
+    let mut mips = vec![Mip::from_picture(&last)];
     for _ in 0..COARSEST {
         last = resample(&last, last.size_px.map(|n| n / 2));
-        mips.push(Mip::of(&last));
+        mips.push(Mip::from_picture(&last));
     }
     mips
 }

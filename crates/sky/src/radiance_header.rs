@@ -37,7 +37,7 @@ pub(super) fn take(mut file: impl BufRead) -> io::Result<(Result<Header, String>
             text if i == 0 || text.starts_with(b"FORMAT=") => kept.extend(text),
             text => {
                 let text = String::from_utf8_lossy(text);
-                header = header.and_then(|header| header.with(text.trim_end()));
+                header = header.and_then(|header| header.with_line(text.trim_end()));
             }
         }
         if line.trim_ascii_end().is_empty() {
@@ -50,7 +50,7 @@ pub(super) fn take(mut file: impl BufRead) -> io::Result<(Result<Header, String>
 
 impl Header {
     /// The header with another line. All exposures and corrections count, and the last primaries.
-    fn with(mut self, line: &str) -> Result<Self, String> {
+    fn with_line(mut self, line: &str) -> Result<Self, String> {
         let Some((key, value)) = line.split_once('=') else {
             return Ok(self);
         };

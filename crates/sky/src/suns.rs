@@ -50,7 +50,7 @@ impl Parted {
 
 /// Takes the suns out of a map: where they were it is as dark as around them.
 pub(super) fn part(map: &mut Picture) -> Parted {
-    let brightness = Brightness::of(map);
+    let brightness = Brightness::measure(map);
     let mut seen = vec![false; map.rgb.len()];
     let mut parted = Parted::default();
     for _ in 0..SPOTS_MOST {
@@ -60,7 +60,7 @@ pub(super) fn part(map: &mut Picture) -> Parted {
         let mut looked_at = Vec::new();
         let found = RIMS.into_iter().find_map(|rim| {
             let threshold = brightness.threshold(rim, value(map.rgb[peak]));
-            let spot = BrightSpot::around(map, peak, threshold, &mut seen);
+            let spot = BrightSpot::grow(map, peak, threshold, &mut seen);
             let around = spot.around_it(map);
             let sun = spot.sun(map, around, brightness.total);
             if sun.is_some() || looked_at.is_empty() {
@@ -100,7 +100,7 @@ struct Brightness {
 }
 
 impl Brightness {
-    fn of(map: &Picture) -> Self {
+    fn measure(map: &Picture) -> Self {
         let [width, height] = map.size_px;
         let rows = map.rgb.par_chunks(width as usize).zip(0..height);
         let total: f64 = rows
@@ -142,7 +142,7 @@ struct BrightSpot {
 
 impl BrightSpot {
     /// Connected texels about `peak` that are brighter than `threshold`, except those that are `seen` already.
-    fn around(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
+    fn grow(map: &Picture, peak: usize, threshold: f64, seen: &mut [bool]) -> Self {
         let middle = direction(map, peak);
         let mut spot = Self {
             texels: vec![peak],

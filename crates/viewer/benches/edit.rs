@@ -83,7 +83,7 @@ fn measure_edits(harness: &mut Harness<Viewer>, layer: usize) {
     let mut latencies: Vec<Latency> = Vec::new();
     for i in 0..EDITS {
         let document = harness.state_mut().document_mut();
-        document.drag("Width", DragKey::of("bench"), |d| {
+        document.drag("Width", DragKey::from_name("bench"), |d| {
             if let Layer::Laid(laid) = &mut d.scratches[layer].layer {
                 laid.width_um.mean = 3.0 + 0.1 * i as f64;
             }

@@ -172,11 +172,11 @@ impl Probe {
             Scenario::Orbit => {
                 let step = glam::DVec2::new(if frame % 100 < 50 { 4.0 } else { -4.0 }, 0.0);
                 let size = glam::DVec2::new(800.0, 450.0);
-                document.drag("Orbit", DragKey::of("bench orbit"), |d| {
+                document.drag("Orbit", DragKey::from_name("bench orbit"), |d| {
                     navigate::orbit(&mut d.camera, step, size)
                 });
             }
-            Scenario::Edit => document.drag("Width", DragKey::of("bench"), |d| {
+            Scenario::Edit => document.drag("Width", DragKey::from_name("bench"), |d| {
                 if let Layer::Laid(laid) = &mut d.scratches[2].layer {
                     laid.width_um.mean = 3.0 + 0.01 * frame as f64;
                 }

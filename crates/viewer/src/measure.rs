@@ -53,7 +53,7 @@ impl PickedScratch {
     }
 
     /// The object and the scratch; none once scratches of the object were laid anew.
-    pub fn of<'a>(&self, built: &'a Built) -> Option<(&'a Object, &'a Scratch)> {
+    pub fn find<'a>(&self, built: &'a Built) -> Option<(&'a Object, &'a Scratch)> {
         let object = built.scene.objects.get(self.object)?;
         let is_same = Arc::ptr_eq(&object.scratches, &self.scratches);
         is_same.then_some((object, object.scratches.get(self.index)?))

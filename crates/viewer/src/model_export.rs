@@ -86,7 +86,7 @@ impl ModelExport {
 
 fn write(description: &Description, base_dir: &FilePath, path: &FilePath) -> Outcome {
     let export = Export {
-        format: Format::of(path).unwrap_or_default(),
+        format: Format::from_path(path).unwrap_or_default(),
         ..Export::default()
     };
     let exported = Loader::default().export(description, base_dir, export);

@@ -54,7 +54,12 @@ impl ObjectPart {
 }
 
 /// The part of an object with a triangle; all of the object if there is one part alone.
-pub(crate) fn at(scene: &Scene, described: &Object, object: usize, triangle: usize) -> ObjectPart {
+pub(crate) fn part_with_triangle(
+    scene: &Scene,
+    described: &Object,
+    object: usize,
+    triangle: usize,
+) -> ObjectPart {
     let Some(made) = scene.objects.get(object) else {
         return ObjectPart::default();
     };

@@ -135,7 +135,7 @@ pub(crate) fn show_focus(ctx: &egui::Context) {
 }
 
 /// A tooltip of one of several choices in `menu`: beside all of them, where it covers none.
-pub(crate) fn beside(response: &Response, menu: Rect, text: &str) {
+pub(crate) fn tooltip_beside_menu(response: &Response, menu: Rect, text: &str) {
     let row = Rect::from_x_y_ranges(menu.x_range(), response.rect.y_range());
     let mut tooltip = Tooltip::for_enabled(response);
     tooltip.popup = tooltip

@@ -509,7 +509,7 @@ mod tests {
             .metal("steel", "steel")
             .object("disk", "steel", "disk = { radius_m = 0.05 }")
             .random("disk", 60)
-            .with("seed = 1\nlength_m = 0.03\nwidth_um = 20.0\ndepth_nm = 180.0")
+            .with_lines("seed = 1\nlength_m = 0.03\nwidth_um = 20.0\ndepth_nm = 180.0")
             .sphere([0.0, 0.3, 0.2], 0.02, 50.0)
             .scene()
     }

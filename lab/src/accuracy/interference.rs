@@ -83,7 +83,7 @@ pub fn measure(quick: bool) -> Result<Interference> {
     for random in [false, true] {
         for spacing_um in SPACINGS_UM {
             let way_um = shorter * f64::max(WAY_UM, WAY_GROOVES * spacing_um);
-            let seen = SeenResponses::of(&GrooveRow::new(spacing_um, random, way_um), nm_step);
+            let seen = SeenResponses::new(&GrooveRow::new(spacing_um, random, way_um), nm_step);
             by_spacing.push(seen.errors(spacing_um, PIXEL_UM, random));
             if spacing_um == SHOWN_UM {
                 profiles.push(seen.profile(random));
@@ -92,7 +92,7 @@ pub fn measure(quick: bool) -> Result<Interference> {
         println!("interference: spacings, random {random}");
     }
     let long_um = if quick { 1000.0 } else { 12_000.0 };
-    let seen = SeenResponses::of(&GrooveRow::new(SHOWN_UM, true, long_um), 4 * nm_step);
+    let seen = SeenResponses::new(&GrooveRow::new(SHOWN_UM, true, long_um), 4 * nm_step);
     let by_pixel = PIXELS_UM
         .iter()
         .filter(|pixel_um| **pixel_um * 3.0 < long_um)
@@ -177,7 +177,7 @@ impl Response {
 }
 
 impl SeenResponses {
-    fn of(row: &GrooveRow, nm_step: usize) -> Self {
+    fn new(row: &GrooveRow, nm_step: usize) -> Self {
         let places: Vec<Vec<Response>> = row
             .places_um
             .par_iter()
@@ -336,7 +336,7 @@ mod tests {
     #[test]
     fn a_row_is_a_grating_that_a_large_light_hides() {
         let row = GrooveRow::new(10.0, false, 100.0);
-        let errors = SeenResponses::of(&row, 8).errors(10.0, 30.0, false);
+        let errors = SeenResponses::new(&row, 8).errors(10.0, 30.0, false);
         let [small, .., large] = errors.by_light[..] else {
             panic!("three lights")
         };

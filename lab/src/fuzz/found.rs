@@ -61,7 +61,7 @@ pub fn all() -> Vec<Case> {
         ),
         ("far-off-in-list", format!("{header}0,0,1e300,0,0,0,1,1\n")),
     ];
-    cases.extend(cells.map(|(name, csv)| with(name, &list, "list.csv", csv)));
+    cases.extend(cells.map(|(name, csv)| case_with_file(name, &list, "list.csv", csv)));
     let texts = [
         ("gltf-1.0", r#"{"asset": {"version": "1.0"}, "meshes": {"a": {}}}"#.to_owned()),
         ("gltf-chain", format!(
@@ -71,7 +71,7 @@ pub fn all() -> Vec<Case> {
         ("gltf-pointer", r#"{"asset": {"version": "2.0"}, "animations": [{"channels": [{"sampler": 0, "target": {"path": "pointer"}}], "samplers": []}]}"#.to_owned()),
         ("gltf-huge-accessor", r#"{"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors": [{"componentType": 5126, "count": 260000000, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}]}"#.to_owned()),
     ];
-    cases.extend(texts.map(|(name, text)| with(name, &model, "a.gltf", text)));
+    cases.extend(texts.map(|(name, text)| case_with_file(name, &model, "a.gltf", text)));
     cases
 }
 
@@ -82,7 +82,7 @@ fn scene(name: &str, more: &str) -> Case {
     }
 }
 
-fn with(name: &str, more: &str, file: &str, contents: String) -> Case {
+fn case_with_file(name: &str, more: &str, file: &str, contents: String) -> Case {
     let mut case = scene(name, more);
     case.files.push((file.to_owned(), contents.into_bytes()));
     case

@@ -278,8 +278,8 @@ pub fn sound_cases(originals: &Originals) -> Vec<Case> {
         .into_iter()
         .flat_map(|(name, files)| files.iter().map(move |file| (name, file)));
     let packed = originals.draco.iter().chain([&originals.meshopt]);
-    let packed = packed.map(|it| {
-        let (text, chunk) = it.parts();
+    let packed = packed.map(|packed| {
+        let (text, chunk) = packed.parts();
         model("sound-packed", &text, &chunk)
     });
     let rest = [

@@ -64,8 +64,8 @@ fn tube() -> Tube {
         positions: points.clone().map(place).collect(),
         normals: points
             .clone()
-            .map(|it| {
-                let [x, y, _] = place(it);
+            .map(|octahedral| {
+                let [x, y, _] = place(octahedral);
                 [x, y, 0.0]
             })
             .collect(),
@@ -152,8 +152,8 @@ pub fn meshopt() -> Result<Packed> {
     let normals: Vec<_> = tube
         .normals
         .iter()
-        .map(|it| {
-            let [x, y] = octahedral(*it);
+        .map(|normal| {
+            let [x, y] = octahedral(*normal);
             [x, y, 127, 0]
         })
         .collect();

@@ -29,14 +29,14 @@ pub fn blade() -> MeshPart {
     for side in [1.0, -1.0] {
         // u along, v from the spine to the bevel.
         add_face(&mut part, [120, 8], side > 0.0, |u, v| {
-            let x = along(u);
+            let x = place_along_blade(u);
             let y = spine(x) + v * (edge(x) + bevel(x) - spine(x));
             let half = half_back(x) + v * (half_at_bevel(x) - half_back(x));
             DVec3::new(x, y, side * half)
         });
     }
     add_face(&mut part, [120, 1], false, |u, v| {
-        let x = along(u);
+        let x = place_along_blade(u);
         DVec3::new(x, spine(x), half_back(x) * (1.0 - 2.0 * v))
     });
     part
@@ -47,7 +47,7 @@ pub fn edge_bevel() -> MeshPart {
     let mut part = MeshPart::default();
     for side in [1.0, -1.0] {
         add_face(&mut part, [120, 2], side > 0.0, |u, v| {
-            let x = along(u);
+            let x = place_along_blade(u);
             let y = edge(x) + (1.0 - v) * bevel(x);
             DVec3::new(x, y, side * half_at_bevel(x) * (1.0 - v))
         });
@@ -68,7 +68,7 @@ pub fn bolster() -> MeshPart {
             half_back(0.0),
         ];
         let [middle, across, half] = [0, 1, 2].map(|i| handle[i] + t * (heel[i] - handle[i]));
-        around(x, [middle, across, half], v)
+        section_point(x, [middle, across, half], v)
     });
     part
 }
@@ -79,7 +79,7 @@ pub fn handle() -> MeshPart {
     add_face(&mut part, [72, 64], true, |u, v| {
         // More stations where it closes.
         let x = END_MM + (BOLSTER_MM - END_MM) * (1.0 - libm::cos(u * PI / 2.0));
-        around(x, section(x), v)
+        section_point(x, section(x), v)
     });
     part
 }
@@ -106,7 +106,7 @@ pub fn rivets() -> MeshPart {
 }
 
 /// Place along the blade, from heel to tip, which is left a hundredth of a millimetre blunt.
-fn along(u: f64) -> f64 {
+fn place_along_blade(u: f64) -> f64 {
     BLADE_MM * (1.0 - libm::pow(1.0 - u, 1.5)) * (1.0 - 1e-4)
 }
 
@@ -147,7 +147,7 @@ fn section(x: f64) -> [f64; 3] {
 }
 
 /// A point of a section, a superellipse, by the share of the way around.
-fn around(x: f64, [middle, across, half]: [f64; 3], v: f64) -> DVec3 {
+fn section_point(x: f64, [middle, across, half]: [f64; 3], v: f64) -> DVec3 {
     const EXPONENT: f64 = 3.2;
     let (sin, cos) = libm::sincos(v * TAU);
     let size = libm::pow(

@@ -32,7 +32,7 @@ impl Spline {
     }
 
     /// The value at `x`, which is kept between the first point and the last.
-    pub fn at(&self, x: f64) -> f64 {
+    pub fn evaluate(&self, x: f64) -> f64 {
         let n = self.x.len();
         let x = x.clamp(self.x[0], self.x[n - 1]);
         let i = self.x[1..n - 1].partition_point(|&knot| knot <= x);

@@ -112,16 +112,16 @@ impl Spoon {
 
     /// Half the width at a place along.
     pub fn half_width_mm(&self, x: f64) -> f64 {
-        self.half_width_squared.at(x).max(0.0).sqrt()
+        self.half_width_squared.evaluate(x).max(0.0).sqrt()
     }
 
     /// The middle of the sheet. `v` runs from -1 to 1 across.
     fn sheet(&self, x: f64, v: f64) -> DVec3 {
-        let w2 = self.half_width_squared.at(x).max(0.0);
+        let w2 = self.half_width_squared.evaluate(x).max(0.0);
         // A paraboloid under a flat rim, fading into the handle, whose upper face bulges a little.
         let hollow =
             0.0232 * (1.0 - smooth_step(46.0, 86.0, x)) - 0.008 * smooth_step(70.0, 110.0, x);
-        let z = self.rim.at(x) - hollow * w2 * (1.0 - v * v);
+        let z = self.rim.evaluate(x) - hollow * w2 * (1.0 - v * v);
         DVec3::new(x, w2.sqrt() * v, z)
     }
 
@@ -141,7 +141,7 @@ impl Spoon {
         let to_end = x.min(LENGTH_MM - x);
         const ROUNDING_MM: f64 = 3.0;
         let rounded = (1.0 - to_end / ROUNDING_MM).max(0.0);
-        let half_thickness = self.half_thickness.at(x) * (1.0 - rounded * rounded).sqrt();
+        let half_thickness = self.half_thickness.evaluate(x) * (1.0 - rounded * rounded).sqrt();
 
         let along_x = self.sheet(x + DIFFERENCE, across) - self.sheet(x - DIFFERENCE, across);
         let along_v = self.sheet(x, across + DIFFERENCE) - self.sheet(x, across - DIFFERENCE);

@@ -127,9 +127,9 @@ impl ScratchedTextures {
             ..
         } = *scratches;
         let of_gratings = || gratings.iter().map(|it| &it.texels);
-        let is_known = |it: &&Spectrum| {
-            let is_of_scratches = it.shapes == *shapes && it.table_rows == table_rows;
-            it.metal == metal && is_of_scratches && it.gratings.iter().eq(of_gratings())
+        let is_known = |spectrum: &&Spectrum| {
+            let is_of_scratches = spectrum.shapes == *shapes && spectrum.table_rows == table_rows;
+            spectrum.metal == metal && is_of_scratches && spectrum.gratings.iter().eq(of_gratings())
         };
         if let Some(known) = spectra.iter().find(is_known) {
             return known.image.clone();

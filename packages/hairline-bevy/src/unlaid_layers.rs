@@ -96,7 +96,7 @@ impl UnlaidLayers {
                 }
             }
             let layers = Scratches::from_json(shown).map_err(|error| error.to_string())?;
-            let mesh = Triangles::of(gltf, number, part).arrays();
+            let mesh = Triangles::read(gltf, number, part).arrays();
             Ok((mesh.map_err(|error| error.to_string())?, layers))
         };
         let parts: Result<_, String> = parts.into_iter().map(of_part).collect();
@@ -171,7 +171,7 @@ fn view_of<'a>(gltf: &'a gltf::Gltf, number: &Value) -> Option<&'a [u8]> {
 
 impl Triangles {
     /// Those of a part of the object of that number.
-    fn of(gltf: &gltf::Gltf, number: u64, part: &Part) -> Self {
+    fn read(gltf: &gltf::Gltf, number: u64, part: &Part) -> Self {
         let is_object = |node: &gltf::Node| {
             let own = node.extension_value(NAME).and_then(|own| own.get("object"));
             own.and_then(Value::as_u64) == Some(number)

@@ -311,8 +311,11 @@ fn ancestors(world: &World, entity: Entity) -> impl Iterator<Item = Entity> {
 }
 
 fn to_root(world: &World, entity: Entity) -> Mat4 {
-    ancestors(world, entity).fold(Mat4::IDENTITY, |so_far, it| {
-        let transform = world.get::<Transform>(it).copied().unwrap_or_default();
+    ancestors(world, entity).fold(Mat4::IDENTITY, |so_far, ancestor| {
+        let transform = world
+            .get::<Transform>(ancestor)
+            .copied()
+            .unwrap_or_default();
         transform.to_matrix() * so_far
     })
 }

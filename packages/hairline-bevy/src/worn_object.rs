@@ -242,8 +242,10 @@ pub(crate) fn accessor<T: Item>(
     let number = laid.get(key).and_then(Value::as_u64);
     let found = number.and_then(|number| gltf.document.accessors().nth(number as usize));
     let right = format!("must be the number of an accessor, {dimensions:?} of {data_type:?}");
-    let is_right = |it: &gltf::Accessor| {
-        it.count() > 0 && it.dimensions() == dimensions && it.data_type() == data_type
+    let is_right = |accessor: &gltf::Accessor| {
+        accessor.count() > 0
+            && accessor.dimensions() == dimensions
+            && accessor.data_type() == data_type
     };
     let blob = gltf.blob.as_deref();
     // Its own buffer is the first.

@@ -1,6 +1,6 @@
 //! Closed forms with light from other objects against the path tracer with as many bounces.
 
-use super::environment::over;
+use super::environment::over_plate;
 use super::filtered::grain;
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{add_quad, plate, scratch, sphere};
@@ -183,7 +183,7 @@ fn light_of_a_sky_by_way_of_a_wall() {
     let mut scene = before_a_wall(WHITE, WHITE);
     scene.lights.clear();
     let sky = BuiltInMap::Overcast.picture([256, 128]);
-    scene.environment = Some(over(hairline_sky::from_map(sky, 0.0, 1.0, false)));
+    scene.environment = Some(over_plate(hairline_sky::from_map(sky, 0.0, 1.0, false)));
     let sum = |image: &Image| luminance(image, Layer::Base).iter().sum::<f64>();
     let by_wall = |of: &dyn Fn(u32) -> Image| sum(&of(1)) - sum(&of(0));
     let expected = by_wall(&|bounces| sampled(&scene, settings(bounces), 16));
@@ -264,13 +264,13 @@ fn a_floor_in_a_mirror_has_little_noise() {
         .fov_y_deg(18.0)
         .size_px([64, 48])
         .metal("silver", "silver")
-        .with("roughness = 0.06")
+        .with_lines("roughness = 0.06")
         .object(
             "coin",
             "silver",
             "cylinder = { radius_m = 0.012, height_m = 0.002 }",
         )
-        .with("rotation_deg = [90, 0, 0]\ntranslation_m = [0, 0, 0.012]")
+        .with_lines("rotation_deg = [90, 0, 0]\ntranslation_m = [0, 0, 0.012]")
         .part("[studio]\n\n[ground]")
         .scene();
     let noise = grain(&bounced(&scene, DEFAULT_SAMPLES, true, 1), 24..40, 18..34);

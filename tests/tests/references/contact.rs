@@ -47,7 +47,7 @@ fn check_ceiling(places: &[(f64, f64)]) {
             .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
             .object("floor", "matt", "plane = { size_m = [2.0, 2.0] }")
             .object("ceiling", "matt", "plane = { size_m = [2.0, 2.0] }")
-            .with(&format!(
+            .with_lines(&format!(
                 "rotation_deg = [{:?}, 0.0, 0.0]\ntranslation_m = {:?}",
                 180.0 + turn_deg,
                 ceiling_m.to_array()
@@ -100,7 +100,7 @@ fn under_a_can(target_m: [f64; 3], fov_y_deg: f64) -> Scene {
         .fov_y_deg(fov_y_deg)
         .size_px([24, 16])
         .metal("steel", "steel")
-        .with("roughness = 0.4")
+        .with_lines("roughness = 0.4")
         .object("plate", "steel", "plane = { size_m = [0.2, 0.2] }")
         .random("plate", 2000)
         .object("can", "steel", "lathe = { profile_m = [[0, 0.03], [0.01, 0.03], [0.02, 0.03], [0.03, 0.03], [0.04, 0.03], [0.04, 0.02], [0.04, 0.01], [0.04, 0.0]], segments = 256 }")
@@ -169,7 +169,7 @@ fn a_shadow_begins_at_the_foot() {
             .part(&side("left", -0.005, -90.0))
             .part(&side("right", 0.005, 90.0))
             .object("top", "matt", "plane = { size_m = [0.01, 0.01] }")
-            .with("translation_m = [0.0, 0.0, 0.01]")
+            .with_lines("translation_m = [0.0, 0.0, 0.01]")
             .sphere([0.1, 0.0, 0.1], 0.01, 10.0)
             .scene();
         let camera = scene.camera.frame([16, 16]);
@@ -203,11 +203,11 @@ fn no_light_comes_from_beyond_a_wall() {
         .size_px([16, 16])
         .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
         .metal("steel", "steel")
-        .with("roughness = 0.4")
+        .with_lines("roughness = 0.4")
         .object("plate", "steel", "plane = { size_m = [0.1, 0.1] }")
         .random("plate", 20_000)
         .object("wall", "matt", "plane = { size_m = [0.01, 0.01] }")
-        .with("rotation_deg = [0.0, -90.0, 0.0]\ntranslation_m = [-0.005, 0.0, 0.005]")
+        .with_lines("rotation_deg = [0.0, -90.0, 0.0]\ntranslation_m = [-0.005, 0.0, 0.005]")
         .sphere([0.1, 0.0, 0.1], 0.01, 10.0)
         .scene();
     for (by, open, image) in by_each(&scene, 16) {

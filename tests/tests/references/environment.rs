@@ -44,13 +44,13 @@ fn mean_over_texel(size_px: [u32; 2], i: u32, value: impl Fn(DVec3) -> f64) -> f
 }
 
 /// The environment at its orientation over the plate.
-pub fn over(environment: Environment) -> Environment {
+pub fn over_plate(environment: Environment) -> Environment {
     environment.with_up(DVec3::Z, 0.7)
 }
 
 #[test]
 fn a_smooth_sky() {
-    let environment = over(hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false));
+    let environment = over_plate(hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false));
     for (base, angle_rad) in [
         (Base::Mirror, 0.4),
         (Base::Metal(Metal::Aluminium.into()), 0.9),
@@ -107,7 +107,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
     let toward = scenes::off_the_mirror(angle_rad, 0.1, 0.02);
-    let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
+    let map_from_world = over_plate(hairline_sky::uniform([1.0; 3])).map_from_world();
     let mut map = sky(size_px);
     for (i, texel) in map.rgb.iter_mut().enumerate() {
         if direction(size_px, i as u32).angle_between(map_from_world * toward) < 0.03 {
@@ -116,7 +116,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
     }
     let parted = hairline_sky::with_suns_parted(map.clone(), 0.0, 1.0, false);
     assert_eq!(parted.suns().len(), 1);
-    scene.environment = Some(over(parted));
+    scene.environment = Some(over_plate(parted));
     // By chance the whole map shines, parted or not.
     let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 8));
     let name = format!("sun on {base:?} from {angle_rad} rad");
@@ -128,7 +128,7 @@ fn check_sun(base: Base, angle_rad: f64, size_px: [u32; 2], whole_too: bool) {
     assert!(base.rms().0 < 0.04, "{base:?}");
     if whole_too {
         // Left in the map it is a stain, all the wider and brighter.
-        scene.environment = Some(over(hairline_sky::from_map(map, 0.0, 1.0, false)));
+        scene.environment = Some(over_plate(hairline_sky::from_map(map, 0.0, 1.0, false)));
         let name = format!("{name}, in the map");
         let stain = compared(&name, &closed(&scene), &reference, Layer::Scratches);
         assert!(stain.rms().0 > 0.5, "{stain:?}");
@@ -163,10 +163,10 @@ fn check_drawn_out(cases: &[(f64, f64, f64)], map_px: [u32; 2], size_px: [u32; 2
             .fov_y_deg(25.0)
             .size_px(size_px)
             .metal("metal", "aluminium")
-            .with(&format!("roughness = {roughness}"))
+            .with_lines(&format!("roughness = {roughness}"))
             .object("disk", "metal", "disk = { radius_m = 50.0 }")
             .scene();
-        let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
+        let map_from_world = over_plate(hairline_sky::uniform([1.0; 3])).map_from_world();
         let toward = map_from_world * DVec3::new(0.0, sin, cos);
         let mut map = sky(map_px);
         for (i, texel) in map.rgb.iter_mut().enumerate() {
@@ -174,7 +174,7 @@ fn check_drawn_out(cases: &[(f64, f64, f64)], map_px: [u32; 2], size_px: [u32; 2
                 *texel = [300.0, 240.0, 180.0];
             }
         }
-        scene.environment = Some(over(hairline_sky::from_map(map, 0.0, 1.0, false)));
+        scene.environment = Some(over_plate(hairline_sky::from_map(map, 0.0, 1.0, false)));
         let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
         let name = format!("lamp on roughness {roughness} from {angle_rad} rad");
         let base = compared(&name, &exact, &reference, Layer::Base);
@@ -195,7 +195,7 @@ fn a_window_in_the_sky() {
     let mut scene = plate(Base::Metal(Metal::Aluminium.into()), view);
     scene.materials[0].roughness = 0.3;
     scratch(&mut scene, view, 20);
-    let map_from_world = over(hairline_sky::uniform([1.0; 3])).map_from_world();
+    let map_from_world = over_plate(hairline_sky::uniform([1.0; 3])).map_from_world();
     let middle = map_from_world * scenes::off_the_mirror(angle_rad, 0.12, 0.1);
     let right = DVec3::Y.cross(middle).normalize();
     let up = middle.cross(right);
@@ -215,7 +215,7 @@ fn a_window_in_the_sky() {
     }
     let map = hairline_sky::with_suns_parted(map, 0.0, 1.0, false);
     assert!(map.suns().is_empty());
-    scene.environment = Some(over(map));
+    scene.environment = Some(over_plate(map));
     let (exact, reference) = (closed(&scene), sampled(&scene, LINEAR, 4));
     if let Some(gpu) = on_the_gpu(&scene, 1) {
         compare("window", &scene, &gpu, &on_the_cpu(&scene, 1)).unwrap();

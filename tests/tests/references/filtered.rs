@@ -124,10 +124,10 @@ fn half_shadow_of_a_lamp_that_few_rays_meet_has_no_speckle() {
         .fov_y_deg(16.0)
         .size_px([64, 48])
         .part("[[material]]\nname = \"m\"\nkind = \"dielectric\"\nbase_color = [0.05, 0.05, 0.05]")
-        .with("roughness = 0.45")
+        .with_lines("roughness = 0.45")
         .object("table", "m", "plane = { size_m = [3.0, 3.0] }")
         .object("ball", "m", "sphere = { radius_m = 0.06 }")
-        .with("translation_m = [0.0, 0.16, 0.06]")
+        .with_lines("translation_m = [0.0, 0.16, 0.06]")
         .scene();
     let size_px = [128, 64];
     let mut map = Picture::new(size_px);

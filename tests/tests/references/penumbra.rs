@@ -128,7 +128,7 @@ fn check(steps: i32, on_gpu: bool) {
         let open = file.scene();
         let scene = file
             .object("board", "matt", "plane = { size_m = [0.06, 0.21] }")
-            .with(&format!("translation_m = [0.03, 0.095, {}]", lamp.edge_m))
+            .with_lines(&format!("translation_m = [0.03, 0.095, {}]", lamp.edge_m))
             .scene();
         let camera = scene.camera.frame(SIZE_PX);
         let std_px = scene.render.footprint_std_px(1);

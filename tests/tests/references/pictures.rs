@@ -115,24 +115,24 @@ pub fn picked(image: &Image, size_px: [u32; 2], from: impl Fn(u32, u32) -> [u32;
         .map(|(x, y)| from(x, y))
         .map(|[x, y]| image.index(x, y))
         .collect();
-    fn of<T: Copy>(values: &[T], places: &[usize]) -> Vec<T> {
+    fn gather<T: Copy>(values: &[T], places: &[usize]) -> Vec<T> {
         places.iter().map(|i| values[*i]).collect()
     }
     Image {
         traced: None,
         size_px,
-        base: of(&image.base, &places),
-        scratches: of(&image.scratches, &places),
-        density: of(&image.density, &places),
-        depth_m: of(&image.depth_m, &places),
-        normal: of(&image.normal, &places),
-        alpha: image.alpha.as_ref().map(|alpha| of(alpha, &places)),
+        base: gather(&image.base, &places),
+        scratches: gather(&image.scratches, &places),
+        density: gather(&image.density, &places),
+        depth_m: gather(&image.depth_m, &places),
+        normal: gather(&image.normal, &places),
+        alpha: image.alpha.as_ref().map(|alpha| gather(alpha, &places)),
         noise: image.noise.as_ref().map(|noise| Noise {
-            beauty: of(&noise.beauty, &places),
-            base: of(&noise.base, &places),
-            scratches: of(&noise.scratches, &places),
-            density: of(&noise.density, &places),
-            samples: of(&noise.samples, &places),
+            beauty: gather(&noise.beauty, &places),
+            base: gather(&noise.base, &places),
+            scratches: gather(&noise.scratches, &places),
+            density: gather(&noise.density, &places),
+            samples: gather(&noise.samples, &places),
             batch: noise.batch,
         }),
     }

@@ -1,6 +1,6 @@
 //! Plastics of glTF under a bright window and under a map, against Fresnel's equations and GGX written anew here, and against chance.
 
-use super::environment::{direction, over};
+use super::environment::{direction, over_plate};
 use super::pictures::{LINEAR, closed, compared, mean, sampled};
 use super::scenes::{View, panel, plate};
 use conformance::two_renderers::{compare, on_the_cpu, on_the_gpu};
@@ -217,14 +217,14 @@ fn rough_surfaces_see_no_light_below_their_horizon() {
         };
         let wo = DVec3::new(0.0, -angle_rad.sin(), angle_rad.cos());
         let size_px = [256, 128];
-        let world_from_map = over(hairline_sky::uniform([1.0; 3]))
+        let world_from_map = over_plate(hairline_sky::uniform([1.0; 3]))
             .map_from_world()
             .transpose();
         let mut map = Picture::new(size_px);
         for (i, texel) in map.rgb.iter_mut().enumerate() {
             *texel = [room(world_from_map * direction(size_px, i as u32), wo) as f32; 3];
         }
-        let environment = over(hairline_sky::from_map(map, 0.0, 1.0, false));
+        let environment = over_plate(hairline_sky::from_map(map, 0.0, 1.0, false));
         let rough = [0.4, 0.5, 0.6].into_iter();
         for (roughness, surface) in rough.flat_map(|it| [(it, &black), (it, &metal)]) {
             let mut scene = surface.scene(view);

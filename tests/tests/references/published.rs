@@ -12,7 +12,7 @@ use hairline_published::{Method, PublishedMethod, Structure};
 use hairline_scene::{Base, Light, LightShape, Scene};
 use std::sync::Arc;
 
-fn by(scene: &Scene, method: Method) -> Image {
+fn render_by(scene: &Scene, method: Method) -> Image {
     let options = RenderOptions {
         samples: 1,
         mask: method.mask,
@@ -64,7 +64,7 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
         let scene = exact_scene(light);
         let reference = sampled(&scene, LINEAR, 4);
         let [scratches, base] = [Layer::Scratches, Layer::Base]
-            .map(|layer| compared(name, &by(&scene, EXACT), &reference, layer));
+            .map(|layer| compared(name, &render_by(&scene, EXACT), &reference, layer));
         assert!(at_least(&scratches) < WHERE_EXACT, "{name}: {scratches:?}");
         assert!((scratches.mean_ratio - 1.0).abs() < 8e-3, "{scratches:?}");
         // Nearly all of the narrow lobe is within the light, where no fit matters.
@@ -79,7 +79,12 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
                 scratch.profile.width_um *= 1.1;
             }
         }
-        let found = compared("wrong", &by(&wrong, EXACT), &reference, Layer::Scratches);
+        let found = compared(
+            "wrong",
+            &render_by(&wrong, EXACT),
+            &reference,
+            Layer::Scratches,
+        );
         assert!(at_least(&found) > 0.1, "{name}: {found:?}");
 
         // The approximated sine integral is 0.003 off, 3.5 % at worst.
@@ -90,7 +95,12 @@ fn equals_monte_carlo_where_the_talk_is_exact() {
             }),
             ..EXACT
         };
-        let found = compared("fast", &by(&scene, fast), &reference, Layer::Scratches);
+        let found = compared(
+            "fast",
+            &render_by(&scene, fast),
+            &reference,
+            Layer::Scratches,
+        );
         assert!(at_least(&found) < 0.04, "{name}: {found:?}");
     }
 }
@@ -147,7 +157,7 @@ fn each_switch_alone() {
             published: Some(switches),
             ..Method::PUBLISHED
         };
-        by(scene, method)
+        render_by(scene, method)
     };
     for (what, switches, to, right, approximate) in [
         // Lists leave out less than 2.4e-4 of a scratch, far beyond its end.
@@ -184,8 +194,8 @@ fn each_switch_alone() {
     }
     // Error of the base alone: the pivot's lobe is off by 4.6 % in the mean, and by more at the foot of the highlight, in addition to
     // the density's share.
-    let published = self::by(&aslant, Method::PUBLISHED);
-    let own = self::by(&aslant, Method::default());
+    let published = self::render_by(&aslant, Method::PUBLISHED);
+    let own = self::render_by(&aslant, Method::default());
     let base = distance(&published, &own, Layer::Base);
     println!("base: {base:.1e}");
     assert!((0.02..0.5).contains(&base));
@@ -203,7 +213,7 @@ fn the_published_mask_is_the_density() {
     };
     let taken = |scene: &Scene, published| {
         let mask = Mask::Density;
-        by(scene, Method { published, mask }).density
+        render_by(scene, Method { published, mask }).density
     };
     for method in [published(true), published(false), None] {
         let taken = taken(&scene, method);

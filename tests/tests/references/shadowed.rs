@@ -1,6 +1,6 @@
 //! Closed forms with shadow rays against the path tracer with shadows.
 
-use super::environment::{over, sky};
+use super::environment::{over_plate, sky};
 use super::pictures::{LINEAR, compared, sampled};
 use super::scenes::{View, add_quad, leaning, off_the_mirror, panel, plate, scratch, sphere, tube};
 use glam::{DVec3, Vec3};
@@ -211,7 +211,7 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
     let rows = with_rows(wall.clone());
 
     // An even map takes no time to prepare.
-    let even = under(&wall, hairline_sky::uniform([0.6, 0.7, 0.9]));
+    let even = under_environment(&wall, hairline_sky::uniform([0.6, 0.7, 0.9]));
 
     vec![
         ("half a lamp", edge),
@@ -227,10 +227,10 @@ fn make_scenes() -> Vec<(&'static str, Scene)> {
 }
 
 /// A scene under an environment alone.
-fn under(scene: &Scene, environment: Environment) -> Scene {
+fn under_environment(scene: &Scene, environment: Environment) -> Scene {
     let mut scene = scene.clone();
     scene.lights.clear();
-    scene.environment = Some(over(environment));
+    scene.environment = Some(over_plate(environment));
     scene
 }
 
@@ -238,7 +238,7 @@ fn under(scene: &Scene, environment: Environment) -> Scene {
 fn under_a_sky() -> (&'static str, Scene) {
     let map = hairline_sky::from_map(sky([128, 64]), 0.0, 1.0, false);
     let (_, wall) = &scenes()[6];
-    ("a wall under the sky", under(wall, map))
+    ("a wall under the sky", under_environment(wall, map))
 }
 
 /// [`scenes`], and a scene whose map takes seconds to prepare.

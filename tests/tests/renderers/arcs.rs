@@ -12,10 +12,10 @@ fn curved(size_px: [u32; 2]) -> Scene {
         .fov_y_deg(24.0)
         .size_px(size_px)
         .metal("steel", "steel")
-        .with("roughness = 0.12")
+        .with_lines("roughness = 0.12")
         .object("plate", "steel", "plane = { size_m = [0.1, 0.1] }")
         .random("plate", 900)
-        .with("length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 160.0\ncurvature_per_m = { mean = 0.0, spread = 8.0 }")
+        .with_lines("length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 160.0\ncurvature_per_m = { mean = 0.0, spread = 8.0 }")
         .sphere([0.02, 0.09, 0.1], 0.002, 800.0)
         .scene()
 }

@@ -24,15 +24,17 @@ fn monkey() -> SceneFile {
         .size_px([900, 900])
         .part("[environment]\nfile = \"studio.hdr\"\nintensity = 0.1")
         .metal("steel", "steel")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .part("[[object]]\nname = \"monkey\"\nmesh = \"suzi.glb\"")
-        .with("material = \"steel\"\nscale = 0.05")
+        .with_lines("material = \"steel\"\nscale = 0.05")
         .random("monkey", 50_000)
-        .with("length_m = { mean = 0.008, spread = 0.4 }\nwidth_um = { mean = 3.0, spread = 0.3 }")
-        .with("depth_nm = { mean = 180.0, spread = 0.15 }")
+        .with_lines(
+            "length_m = { mean = 0.008, spread = 0.4 }\nwidth_um = { mean = 3.0, spread = 0.3 }",
+        )
+        .with_lines("depth_nm = { mean = 180.0, spread = 0.15 }")
         .sphere([0.1, 0.2, 0.25], 0.02, 300.0)
         .polygon(&PANEL_M, 15.0)
-        .with("two_sided = true")
+        .with_lines("two_sided = true")
 }
 
 /// The folder of these files, relative to the workspace; none, and a line on stderr, without them.

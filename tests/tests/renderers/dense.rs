@@ -20,10 +20,10 @@ fn disk(size_px: [u32; 2], distance_m: f64, count: u32) -> Scene {
         .fov_y_deg(20.0)
         .size_px(size_px)
         .metal("steel", "iron")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .object("disk", "steel", radius)
         .random("disk", count)
-        .with("length_m = 0.00236\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .with_lines("length_m = 0.00236\nwidth_um = 3.0\ndepth_nm = 220.0")
         .sphere([0.0, 0.2, 0.34641], 0.04, 40.0)
         .scene()
 }
@@ -71,7 +71,7 @@ fn five_hundred_lights() {
         let place = DVec3::from(random.direction(0.1).map(f64::from));
         let right = place.any_orthonormal_vector();
         let (right, up) = (0.02 * right, 0.02 * place.cross(right));
-        let radiance = [random.between(1.0, 20.0).into(); 3];
+        let radiance = [random.uniform(1.0, 20.0).into(); 3];
         scene.lights.push(match i % 2 {
             0 => Light::sphere(place, 0.02, radiance),
             _ => Light::polygon(
@@ -124,10 +124,10 @@ fn a_camera_inside_the_object() {
         .fov_y_deg(60.0)
         .size_px([64, 40])
         .metal("steel", "iron")
-        .with("roughness = 0.3")
+        .with_lines("roughness = 0.3")
         .object("ball", "steel", BALL)
         .random("ball", 2000)
-        .with("length_m = 0.005\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .with_lines("length_m = 0.005\nwidth_um = 3.0\ndepth_nm = 220.0")
         .sphere([-0.02, 0.0, 0.02], 0.005, 40.0)
         .scene();
     check("from inside", &scene);

@@ -13,11 +13,11 @@ fn balls() -> SceneFile {
         .up([0.0, 1.0, 0.0])
         .fov_y_deg(24.0)
         .metal("gold", "gold")
-        .with("roughness = 0.08")
+        .with_lines("roughness = 0.08")
         .object("large", "gold", "sphere = { radius_m = 0.04 }")
-        .with("translation_m = [-0.025, 0.0, 0.0]")
+        .with_lines("translation_m = [-0.025, 0.0, 0.0]")
         .object("small", "gold", "sphere = { radius_m = 0.01 }")
-        .with("translation_m = [0.05, 0.01, 0.0]")
+        .with_lines("translation_m = [0.05, 0.01, 0.0]")
 }
 
 /// Dark, with a bright texel here and there.
@@ -47,7 +47,7 @@ fn balls_under_a_sun() {
     let mut scene = balls()
         .size_px([128, 80])
         .random("large", 400)
-        .with("seed = 3\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 250.0")
+        .with_lines("seed = 3\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 250.0")
         .scene();
     let mut map = Picture::new([2048, 1024]);
     let sun = DVec3::new(0.3, 0.6, 0.74).normalize();

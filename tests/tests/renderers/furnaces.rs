@@ -238,9 +238,9 @@ fn normal_maps_in_a_furnace() {
     }
     let mut random = Sequence(7);
     let mut texel = || {
-        let xy = [0; 2].map(|_: u8| random.between(88.0, 168.0) as u8);
+        let xy = [0; 2].map(|_: u8| random.uniform(88.0, 168.0) as u8);
         // The last channel holds the spread of slopes.
-        [xy[0], xy[1], 245, random.between(0.0, 120.0) as u8]
+        [xy[0], xy[1], 245, random.uniform(0.0, 120.0) as u8]
     };
     let levels =
         [64usize, 32, 16, 8, 4, 2, 1].map(|side| (0..side * side).map(|_| texel()).collect());

@@ -37,7 +37,7 @@ fn a_white_furnace_stays_white() {
     );
     let spots = |spacing_m: f64| {
         file("[[grating]]\nobject = \"ball\"\npattern = \"swirl\"\npitch_um = 3.0\n")
-            .with(&format!("spacing_m = {spacing_m:?}"))
+            .with_lines(&format!("spacing_m = {spacing_m:?}"))
     };
     for file in [
         file(&fine),
@@ -153,7 +153,7 @@ fn first_order_nm(grooved: &Grooved, pitch_um: f64, within: Range<f64>) -> f64 {
         .fov_y_deg(30.0)
         .mirror("m")
         .object("it", "m", grooved.object)
-        .with(&format!(
+        .with_lines(&format!(
             "translation_m = [0.0, {:?}, 0.0]",
             grooved.center_y_m
         ))
@@ -172,7 +172,7 @@ fn first_order_nm(grooved: &Grooved, pitch_um: f64, within: Range<f64>) -> f64 {
             ],
             1e6,
         )
-        .with("two_sided = true")
+        .with_lines("two_sided = true")
         .scene();
     let image = one_sample(&Prepared::new(&scene));
     let half = f64::from(width_px) / 2.0;
@@ -233,12 +233,12 @@ fn all_patterns() -> SceneFile {
         .size_px([96, 72])
         .fov_y_deg(24.0)
         .metal("aluminium", "aluminium")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .metal("gold", "gold")
-        .with("roughness = 0.3")
+        .with_lines("roughness = 0.3")
         .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
         .object("ball", "gold", "sphere = { radius_m = 0.02 }")
-        .with("translation_m = [0.02, 0.0, 0.02]")
+        .with_lines("translation_m = [0.02, 0.0, 0.02]")
         .part(&grating("plate", "parallel", &format!("direction = [1.0, 0.3, 0.0]\n{rough}")))
         .part(&grating("plate", "circular", &format!("radius_m = [0.01, 0.05]\n{fine}")))
         .part(&grating("plate", "swirl", &format!("spacing_m = 0.02\nradius_m = [0.05, 0.09]\n{rough}")))
@@ -248,7 +248,7 @@ fn all_patterns() -> SceneFile {
         .random("ball", 60)
         .sphere([0.05, 0.2, 0.3], 0.01, 60.0)
         .polygon(&[[-0.3, 0.1, 0.3], [-0.2, 0.1, 0.3], [-0.2, 0.2, 0.3], [-0.3, 0.2, 0.3]], 20.0)
-        .with("two_sided = true")
+        .with_lines("two_sided = true")
         .part("[[light]]\nkind = \"tube\"\nends_m = [[0.2, -0.2, 0.3], [0.25, 0.3, 0.35]]\nradius_m = 0.004\nradiance = 40.0")
         .part("[[light]]\nkind = \"disk\"\ncenter_m = [0.0, 0.4, 0.4]\ntarget_m = [0.0, 0.0, 0.0]\nradius_m = 0.03\nradiance = 10.0")
         .part("[studio]\nhidden = true")
@@ -282,10 +282,10 @@ pub(super) fn grooves_one_by_one(name: &str, gratings: &[String]) {
         .size_px([96, 72])
         .fov_y_deg(1.0)
         .metal("aluminium", "aluminium")
-        .with("roughness = 0.2\ncoherence_um = 8.0")
+        .with_lines("roughness = 0.2\ncoherence_um = 8.0")
         .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
         .object("ball", "aluminium", "sphere = { radius_m = 0.0003 }")
-        .with("translation_m = [0.0601, 0.03, 0.0]");
+        .with_lines("translation_m = [0.0601, 0.03, 0.0]");
     for grating in gratings {
         file = file.part(grating);
     }
@@ -299,7 +299,7 @@ pub(super) fn grooves_one_by_one(name: &str, gratings: &[String]) {
             ],
             1.0,
         )
-        .with("two_sided = true")
+        .with_lines("two_sided = true")
         .part("[studio]\nhidden = true")
         .scene();
     let Some(gpu) = on_the_gpu(&scene, 1) else {

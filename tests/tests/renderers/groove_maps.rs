@@ -81,16 +81,16 @@ fn file(pitch_um: f64, more: &str) -> SceneFile {
         .size_px([96, 72])
         .fov_y_deg(24.0)
         .metal("aluminium", "aluminium")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
         .object("ball", "aluminium", "sphere = { radius_m = 0.02 }")
-        .with("translation_m = [0.03, 0.0, 0.02]")
+        .with_lines("translation_m = [0.03, 0.0, 0.02]")
         .object(
             "rod",
             "aluminium",
             "cylinder = { radius_m = 0.012, height_m = 0.05, rounding_m = 0.002 }",
         )
-        .with("translation_m = [-0.03, 0.0, 0.02]\nrotation_deg = [70.0, 20.0, 0.0]\nscale = [1.0, 1.3, 0.8]")
+        .with_lines("translation_m = [-0.03, 0.0, 0.02]\nrotation_deg = [70.0, 20.0, 0.0]\nscale = [1.0, 1.3, 0.8]")
         .part(&grating("plate"))
         .part(&grating("ball"))
         .part(&grating("rod"))
@@ -180,7 +180,7 @@ fn plate(change: impl Fn(&mut Scene)) -> Image {
         .size_px([48, 36])
         .fov_y_deg(12.0)
         .metal("aluminium", "aluminium")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .object("plate", "aluminium", "plane = { size_m = [0.2, 0.2] }")
         .part("[[grating]]\nobject = \"plate\"\npattern = \"parallel\"\npitch_um = 1.6\njitter_um = 0.02\ntheory = \"scalar\"")
         .sphere([0.05, 0.2, 0.3], 0.05, 60.0)

@@ -29,7 +29,7 @@ fn lamps(visible: bool) -> Scene {
         .scene()
 }
 
-fn at(image: &Image, scene: &Scene, point_m: [f64; 3]) -> [f32; 3] {
+fn pixel_at(image: &Image, scene: &Scene, point_m: [f64; 3]) -> [f32; 3] {
     let frame = scene.camera.frame(scene.render.size_px);
     let way = glam::DVec3::from(point_m) - frame.position_m;
     let way = way / way.dot(frame.forward);
@@ -59,7 +59,7 @@ fn the_camera_sees_their_radiance() {
         ([0.17, 0.0, 0.115], [0.0; 3]),
         ([0.0, -0.05, 0.15], [0.7; 3]),
     ] {
-        let found = at(&image, &scene, point_m);
+        let found = pixel_at(&image, &scene, point_m);
         for (found, expected) in found.iter().zip(expected) {
             let found = f64::from(*found);
             assert!(
@@ -137,7 +137,7 @@ fn both_references_see_them() {
             (scene, image)
         });
         let (scene, image) = &seen;
-        let found = at(image, scene, [-0.1, 0.0, 0.11]);
+        let found = pixel_at(image, scene, [-0.1, 0.0, 0.11]);
         for (found, expected) in found.iter().zip([2.0, 1.0, 0.5]) {
             assert!((found - expected).abs() < 1e-4, "{model:?}: {found}");
         }
@@ -173,7 +173,7 @@ fn barn_doors_end_the_light() -> Result<(), String> {
     // Right is at -x, as seen from the target with y up.
     let share = |x: f64, y: f64| {
         let point_m = [x, y, 0.0];
-        f64::from(at(&of_shaded, &shaded, point_m)[1] / at(&of_open, &open, point_m)[1])
+        f64::from(pixel_at(&of_shaded, &shaded, point_m)[1] / pixel_at(&of_open, &open, point_m)[1])
     };
     for (x, y, expected) in [
         (0.0, 0.0, 1.0),
@@ -254,11 +254,11 @@ fn both_renderers_see_the_same_sun() -> Result<(), String> {
         .fov_y_deg(22.0)
         .size_px([128, 96])
         .metal("steel", "steel")
-        .with("roughness = 0.15")
+        .with_lines("roughness = 0.15")
         .object("table", "steel", "plane = { size_m = [0.4, 0.4] }")
         .random("table", 400)
         .object("ball", "steel", "sphere = { radius_m = 0.03 }")
-        .with("translation_m = [0.04, 0.03, 0.04]")
+        .with_lines("translation_m = [0.04, 0.03, 0.04]")
         .part("[[light]]\nkind = \"sun\"\ndirection = [-0.1, -0.75, -0.65]\nirradiance = 2.0\ntemperature_k = 5000")
         .scene();
     if let Some(gpu) = on_the_gpu(&scene, 4) {

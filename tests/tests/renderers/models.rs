@@ -291,8 +291,8 @@ fn maps_of_a_clear_layer_are_factors_on_it() {
 fn bumps(seed: u64) -> Texture {
     let mut random = Sequence(seed);
     let mut texel = || {
-        let xy = [0; 2].map(|_: u8| random.between(90.0, 165.0) as u8);
-        [xy[0], xy[1], 245, random.between(0.0, 60.0) as u8]
+        let xy = [0; 2].map(|_: u8| random.uniform(90.0, 165.0) as u8);
+        [xy[0], xy[1], 245, random.uniform(0.0, 60.0) as u8]
     };
     Texture {
         size_px: [8; 2],
@@ -318,7 +318,7 @@ fn balls_under_layers_of_other_normals() {
             .mirror("m")
             .object("ball", "m", "sphere = { radius_m = 0.05 }")
             .laid("ball", "random", 300)
-            .with("length_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
+            .with_lines("length_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
             .fov_y_deg(14.0)
             .size_px([56, 56])
             .scene();

@@ -25,7 +25,7 @@ fn paper(grey: f64, shape: &str, placed: &str) -> SceneFile {
             "[[material]]\nname = \"paper\"\nkind = \"metallic-roughness\"\nmetallic = 0\nspecular = 0\nroughness = 1\nbase_color = [{grey}, {grey}, {grey}]"
         ))
         .object("paper", "paper", shape)
-        .with(placed)
+        .with_lines(placed)
         .part("[[light]]\nkind = \"sun\"\ndirection = [0, 0, -1]\nirradiance = 3.14159265")
         .part("[studio]\nhidden = true")
 }

@@ -120,14 +120,14 @@ fn fine_disk() -> Scene {
         .fov_y_deg(20.0)
         .size_px([48, 48])
         .metal("steel", "iron")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .object(
             "disk",
             "steel",
             &format!("lathe = {{ segments = 64, profile_m = {radii:?} }}"),
         )
         .random("disk", 1000)
-        .with("length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 220.0")
+        .with_lines("length_m = 0.02\nwidth_um = 3.0\ndepth_nm = 220.0")
         .sphere([0.0, 0.2, 0.4], 0.04, 40.0)
         .scene()
 }

@@ -117,11 +117,13 @@ fn shapes_of_grooves() {
         .mirror("m")
         .object("plate", "m", DISK)
         .random("plate", 60_000)
-        .with("profile = \"shoulders\"\nwidth_um = { mean = 3.0, spread = 0.3 }\nlength_m = 0.004")
+        .with_lines(
+            "profile = \"shoulders\"\nwidth_um = { mean = 3.0, spread = 0.3 }\nlength_m = 0.004",
+        )
         .random("plate", 8000)
-        .with("seed = 2\nwidth_um = { mean = 40.0, spread = 0.8 }\nlength_m = 0.004")
+        .with_lines("seed = 2\nwidth_um = { mean = 40.0, spread = 0.8 }\nlength_m = 0.004")
         .random("plate", 8000)
-        .with("seed = 3\nprofile = [1, 0.6, -0.2, 0]\nwidth_um = 20.0\nlength_m = 0.004")
+        .with_lines("seed = 3\nprofile = [1, 0.6, -0.2, 0]\nwidth_um = 20.0\nlength_m = 0.004")
         .sphere([0.0, 0.02, 0.03], 0.002, 9.0)
         .scene();
     let Some(gpu) = on_the_gpu(&scene, DEFAULT_SAMPLES) else {

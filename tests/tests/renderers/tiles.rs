@@ -25,9 +25,9 @@ fn scratched(size_px: [u32; 2], count: u32) -> Scene {
     scene.render.size_px = size_px;
     let mut random = Sequence(3);
     for _ in 0..count {
-        let y = HALF_M * random.between(-1.0, 1.0);
-        let reach = HALF_M * random.between(0.5, 0.99);
-        let (width, depth) = (random.between(0.5, 1.0), random.between(40.0, 400.0));
+        let y = HALF_M * random.uniform(-1.0, 1.0);
+        let reach = HALF_M * random.uniform(0.5, 0.99);
+        let (width, depth) = (random.uniform(0.5, 1.0), random.uniform(40.0, 400.0));
         let [start, end] = [-reach, reach].map(|x| Vec3::new(x, y, 0.0));
         lay(&mut scene, start, end, width, depth, 1);
     }

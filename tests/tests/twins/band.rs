@@ -30,14 +30,14 @@ fn lines() {
     ];
     for _ in 0..1000 {
         let (low, extent) = (
-            random.between(-5.0, 5.0) * s,
-            10f32.powf(random.between(-2.0, 2.0)) * s,
+            random.uniform(-5.0, 5.0) * s,
+            10f32.powf(random.uniform(-2.0, 2.0)) * s,
         );
         // Well away from the extents at which the number of lines changes.
         let half = 0.5 * extent / s;
         if (half - 3.0).abs() > 0.01 && (half - 16.0).abs() > 0.01 {
             let i = (random.next() * 5.0).floor();
-            rows.push([low, low + extent, i, random.between(-0.9, 0.9)]);
+            rows.push([low, low + extent, i, random.uniform(-0.9, 0.9)]);
         }
     }
     Twin {
@@ -79,12 +79,12 @@ fn spheres() {
         let sine = if random.next() < 0.1 {
             0.0
         } else {
-            10f32.powf(random.between(-3.0, 0.0))
+            10f32.powf(random.uniform(-3.0, 0.0))
         };
         let xi_t = if random.next() < 0.3 {
             0.0
         } else {
-            random.between(-0.01, 0.01)
+            random.uniform(-0.01, 0.01)
         };
         rows.push([wo[0], wo[1], wo[2], axis[0], axis[1], axis[2], sine, xi_t]);
     }
@@ -147,8 +147,8 @@ fn band_integrals() {
     let mut random = Sequence(8);
     let mut rows = Vec::new();
     for _ in 0..1000 {
-        let low = random.between(-3.0, 3.0) * STD_XI as f32;
-        let extent = 10f32.powf(random.between(-1.5, 2.0)) * STD_XI as f32;
+        let low = random.uniform(-3.0, 3.0) * STD_XI as f32;
+        let extent = 10f32.powf(random.uniform(-1.5, 2.0)) * STD_XI as f32;
         rows.push([low, low + extent]);
     }
     // Well away from the extents at which the number of lines changes.
@@ -195,12 +195,12 @@ fn moving_bands() {
         [0.003, 0.1, 0.2, 0.0, 0.0, 40.0, 1.0, 0.0, 5.0],
     ];
     for _ in 0..5000 {
-        let scale = 10f32.powf(random.between(-5.0, 0.0));
-        let wide = 10f32.powf(random.between(0.0, 3.5));
-        let mut pick = |to: f32| random.between(-to, to);
+        let scale = 10f32.powf(random.uniform(-5.0, 0.0));
+        let wide = 10f32.powf(random.uniform(0.0, 3.5));
+        let mut pick = |to: f32| random.uniform(-to, to);
         let (x, y) = (pick(scale), pick(scale));
         let (along, across, offset) = (pick(wide), pick(wide), pick(2.0 * wide));
-        let std = random.between(0.001, 0.02);
+        let std = random.uniform(0.001, 0.02);
         let wi = random.direction(0.0);
         rows.push([std, x, y, along, across, offset, wi[0], wi[1], wi[2]]);
     }
@@ -248,13 +248,13 @@ fn bands_of_all_scratches_move_at_once() {
         ],
     ];
     for _ in 0..5000 {
-        let scale = 10f32.powf(random.between(-5.0, 0.0));
-        let wide = 10f32.powf(random.between(0.0, 3.5));
-        let mut pick = |to: f32| random.between(-to, to);
+        let scale = 10f32.powf(random.uniform(-5.0, 0.0));
+        let wide = 10f32.powf(random.uniform(0.0, 3.5));
+        let mut pick = |to: f32| random.uniform(-to, to);
         let (x, y) = (pick(scale), pick(scale));
         let axis = [pick(wide), pick(wide), pick(wide)];
         let (wo, wi) = (random.direction(0.0), random.direction(-1.0));
-        let (sin, cos) = random.between(0.0, std::f32::consts::TAU).sin_cos();
+        let (sin, cos) = random.uniform(0.0, std::f32::consts::TAU).sin_cos();
         rows.push([
             x, y, axis[0], axis[1], axis[2], wo[0], wo[1], wo[2], wi[0], wi[1], wi[2], cos, sin,
         ]);
@@ -295,7 +295,7 @@ fn cosines_over_chords() {
     for _ in 0..5000 {
         let wo = random.direction(0.0);
         let (a, b) = (random.next(), random.next());
-        let width = 10f32.powf(random.between(-1.0, 1.5));
+        let width = 10f32.powf(random.uniform(-1.0, 1.5));
         rows.push([wo[0], wo[1], wo[2], a.min(b), a.max(b), width]);
     }
     Twin {
@@ -330,7 +330,7 @@ fn environment_cells() {
             wo[0],
             wo[1],
             wo[2],
-            random.between(0.05, 30.0),
+            random.uniform(0.05, 30.0),
             (random.next() * ENVIRONMENT_CELLS as f32).floor(),
         ]);
     }

@@ -34,12 +34,12 @@ fn gold() -> FresnelRgb<'static> {
 
 /// (viewer's cosine, alpha across, strength, turn) of surfaces.
 fn surface(random: &mut Sequence) -> [f32; 4] {
-    let roughness = random.between(0.1, 0.7);
+    let roughness = random.uniform(0.1, 0.7);
     [
-        random.between(0.05, 1.0),
+        random.uniform(0.05, 1.0),
         roughness * roughness,
         random.next(),
-        random.between(-3.2, 3.2),
+        random.uniform(-3.2, 3.2),
     ]
 }
 
@@ -108,10 +108,10 @@ fn light(random: &mut Sequence, surface: [f32; 4]) -> [f32; 7] {
         x,
         y,
         z,
-        10f32.powf(random.between(-2.5, -0.1)),
+        10f32.powf(random.uniform(-2.5, -0.1)),
         spread * random.next(),
         spread * random.next(),
-        random.between(-1.0, 1.0),
+        random.uniform(-1.0, 1.0),
     ]
 }
 

@@ -12,7 +12,7 @@ fn visible_normals() {
     let rows: Vec<[f32; 6]> = (0..4000)
         .map(|_| {
             let [x, y, z] = random.direction(0.05);
-            let alpha = random.between(0.002, 1.0);
+            let alpha = random.uniform(0.002, 1.0);
             [x, y, z, alpha, random.next(), random.next()]
         })
         // A viewer on the horizon sees no normals.

@@ -15,11 +15,11 @@ fn v(x: &[f64], at: usize) -> DVec3 {
 
 /// A polygon of the plane across `center`, tilted; corners relative to the center, `size` its largest half extent.
 fn on_a_plane(random: &mut Sequence, center: Vec3, corners: [Vec2; 4]) -> Option<Row> {
-    let size = 10f32.powf(random.between(-2.5, 0.7));
-    let tilt = Vec3::from(random.direction(-1.0)) * random.between(0.0, 0.9);
+    let size = 10f32.powf(random.uniform(-2.5, 0.7));
+    let tilt = Vec3::from(random.direction(-1.0)) * random.uniform(0.0, 0.9);
     let normal = (center + tilt).normalize();
     let (u, w) = normal.any_orthonormal_pair();
-    let turn = random.between(0.0, std::f32::consts::TAU);
+    let turn = random.uniform(0.0, std::f32::consts::TAU);
     let at = corners.map(|c| {
         let c = Vec2::from_angle(turn).rotate(c) * size;
         center + u * c.x + w * c.y
@@ -41,9 +41,9 @@ fn row(random: &mut Sequence, corners: [Vec3; 4]) -> Option<Row> {
     let low = directions.iter().fold(1.0, |low: f32, d| low.min(d.x));
     let high = directions.iter().fold(-1.0, |high: f32, d| high.max(d.x));
     let along = if random.next() < 0.5 {
-        random.between(low - 0.1 * (high - low), high + 0.1 * (high - low))
+        random.uniform(low - 0.1 * (high - low), high + 0.1 * (high - low))
     } else {
-        random.between(-1.0, 1.0)
+        random.uniform(-1.0, 1.0)
     };
     let along = along.clamp(-1.0, 1.0);
     let mut row = [0.0; INPUTS];
@@ -63,7 +63,7 @@ fn rows(count: usize) -> Vec<Row> {
     let mut rows = Vec::new();
     while rows.len() < count {
         let around = (random.next() * 4.0) as usize;
-        let near = Vec3::from(random.direction(-1.0)) * random.between(0.0, 0.5);
+        let near = Vec3::from(random.direction(-1.0)) * random.uniform(0.0, 0.5);
         let center = match around {
             0 => Vec3::X + near,
             1 => -Vec3::X + near,
@@ -72,8 +72,8 @@ fn rows(count: usize) -> Vec<Row> {
         };
         // Counter-clockwise around the middle.
         let mut quarter = |i: f32| {
-            let angle = std::f32::consts::FRAC_PI_2 * (i + random.between(-0.45, 0.45));
-            Vec2::from_angle(angle) * random.between(0.3, 1.0)
+            let angle = std::f32::consts::FRAC_PI_2 * (i + random.uniform(-0.45, 0.45));
+            Vec2::from_angle(angle) * random.uniform(0.3, 1.0)
         };
         let mut corners = [quarter(0.0), quarter(1.0), quarter(2.0), quarter(3.0)];
         match (random.next() * 6.0) as usize {

@@ -82,13 +82,13 @@ fn grooves_under_pixels() {
             row[4..7].copy_from_slice(&normal);
             // Distances from the axis of a hundredth of a millimetre to a metre; pixels up to a tenth as
             // wide.
-            let reach_m = 10f32.powf(random.between(-5.0, 0.0));
+            let reach_m = 10f32.powf(random.uniform(-5.0, 0.0));
             row[7..10].copy_from_slice(&random.direction(-1.0).map(|x| x * reach_m));
             for at in [10, 13] {
                 let step = DVec3::from(random.direction(-1.0).map(f64::from));
                 let normal = DVec3::from(normal.map(f64::from));
                 let across = step - normal * normal.dot(step);
-                let size = f64::from(reach_m) * 10f64.powf(f64::from(random.between(-4.0, -1.0)));
+                let size = f64::from(reach_m) * 10f64.powf(f64::from(random.uniform(-4.0, -1.0)));
                 row[at..at + 3].copy_from_slice(&(across * size).as_vec3().to_array());
             }
             row
@@ -134,12 +134,12 @@ fn grooves_under_pixels() {
             let axes_m = [v(&x[10..]), v(&x[13..])];
             let seen = grating.seen_from_pixel(&NOWHERE, v(&x[7..]), v(&x[4..]), axes_m);
             let seen = seen.filter(|it| it.share > 1e-3);
-            seen.map_or([0.0; 17], |it| {
-                let [right, down] = it.turns_rad;
-                let mut row = [it.tangent.x, it.tangent.y, it.tangent.z, right, down, it.share].to_vec();
-                row.push(it.mixed);
-                let way = grating.all_ways(it, v(&x[4..])).nth(2);
-                let across = grating.across(it, v(&x[4..]), v(&x[10..]) * 100.0);
+            seen.map_or([0.0; 17], |place| {
+                let [right, down] = place.turns_rad;
+                let mut row = [place.tangent.x, place.tangent.y, place.tangent.z, right, down, place.share].to_vec();
+                row.push(place.mixed);
+                let way = grating.all_ways(place, v(&x[4..])).nth(2);
+                let across = grating.across(place, v(&x[4..]), v(&x[10..]) * 100.0);
                 for seen in [way, across] {
                     let [x, y, z] = seen.map_or([0.0; 3], |it| it.tangent.to_array());
                     let [share, std_rad] = seen.map_or([0.0; 2], |it| [it.share, it.angle_std_rad]);
@@ -168,15 +168,15 @@ fn single_grooves() {
             row[1..4].copy_from_slice(&random.direction(-1.0));
             row[4..7].copy_from_slice(&normal);
             // Up to a tenth of a metre from the axis.
-            let reach_m = random.between(1e-3, 0.1);
+            let reach_m = random.uniform(1e-3, 0.1);
             row[7..10].copy_from_slice(&random.direction(-1.0).map(|x| x * reach_m));
-            row[10] = random.between(8.0, 50.0);
-            row[11] = row[10] * random.between(0.02, 0.6);
-            row[12] = random.between(0.0, 0.3);
+            row[10] = random.uniform(8.0, 50.0);
+            row[11] = row[10] * random.uniform(0.02, 0.6);
+            row[12] = random.uniform(0.0, 0.3);
             // Pixel and window.
-            row[13] = row[10] * random.between(0.0, 1.0);
-            row[14] = row[10] * random.between(0.2, 1.2);
-            row[15] = random.between(0.0, 1e4).floor();
+            row[13] = row[10] * random.uniform(0.0, 1.0);
+            row[14] = row[10] * random.uniform(0.2, 1.2);
+            row[15] = random.uniform(0.0, 1e4).floor();
             row
         })
         // Next to where a field ends, and between two cuts, rounding decides.
@@ -275,11 +275,11 @@ fn bands_of_rows() {
             row[..3].copy_from_slice(&random.direction(0.0));
             row[3..6].copy_from_slice(&random.direction(0.0));
             for value in &mut row[6..10] {
-                *value = random.between(-300.0, 300.0);
+                *value = random.uniform(-300.0, 300.0);
             }
-            row[10] = random.between(-0.05, 0.05);
-            row[11] = random.between(-0.05, 0.05);
-            row[12] = random.between(0.0, 0.1);
+            row[10] = random.uniform(-0.05, 0.05);
+            row[11] = random.uniform(-0.05, 0.05);
+            row[12] = random.uniform(0.0, 0.1);
             row
         })
         .collect();
@@ -321,7 +321,7 @@ fn light_from_all_around() {
     let mut rows: Vec<[f32; 4]> = vec![[0.0, 0.0, 1.0, 0.0], [0.0, 0.99995, 0.01, 1.0]];
     rows.extend((0..2000).map(|_| {
         let [x, y, z] = random.direction(0.01);
-        [x, y, z, random.between(0.0, 6.3)]
+        [x, y, z, random.uniform(0.0, 6.3)]
     }));
     let tables = [Table {
         size: [COLUMNS as u32, ROWS as u32],
@@ -395,7 +395,7 @@ fn fine_gratings_by_incidence() {
     ];
     rows.extend((0..4000).map(|_| {
         let [x, y, z] = random.direction(0.0);
-        [x, y, z, random.between(-2.2, 2.2)]
+        [x, y, z, random.uniform(-2.2, 2.2)]
     }));
     let tables = [Table {
         size: [COLUMNS as u32, ROWS as u32],

@@ -92,7 +92,7 @@ fn towards_light(random: &mut Sequence, wo: [f32; 3], roughness: f32) -> Vec3 {
     if choice < 0.2 {
         return random.direction(-1.0).into();
     }
-    let offset = Vec3::from_array(std::array::from_fn(|_| random.between(-1.0, 1.0)));
+    let offset = Vec3::from_array(std::array::from_fn(|_| random.uniform(-1.0, 1.0)));
     let mirror = Vec3::new(-wo[0], -wo[1], wo[2].abs());
     let alpha = ggx_alpha(f64::from(roughness)) as f32;
     let near = mirror + 4.0 * alpha * offset;
@@ -268,10 +268,10 @@ fn angles_and_frames() {
     ];
     for _ in 0..4000 {
         let [x, y, z] = random.direction(-1.0);
-        let scale = 10f32.powf(random.between(-8.0, 8.0));
+        let scale = 10f32.powf(random.uniform(-8.0, 8.0));
         rows.push([
             random.next() * scale,
-            random.between(-1.0, 1.0) * 10f32.powf(random.between(-8.0, 0.0)) * scale,
+            random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-8.0, 0.0)) * scale,
             x,
             y,
             z,
@@ -304,16 +304,16 @@ fn elliptic_cones() {
     let mut rows = Vec::new();
     for _ in 0..20_000 {
         let [x, y, z] = random.direction(-1.0);
-        let t1 = 10f32.powf(random.between(-4.0, 2.0));
-        let t2 = t1 * 10f32.powf(random.between(0.0, 2.0) * random.next());
+        let t1 = 10f32.powf(random.uniform(-4.0, 2.0));
+        let t2 = t1 * 10f32.powf(random.uniform(0.0, 2.0) * random.next());
         // The horizon cuts one cone in four.
         let z = if random.next() < 0.25 {
-            random.between(-1.0, 1.0) * (t2 / (1.0 + t2))
+            random.uniform(-1.0, 1.0) * (t2 / (1.0 + t2))
         } else {
             z
         };
         let [x, y, z] = Vec3::new(x, y, z).normalize_or(Vec3::X).to_array();
-        rows.push([x, y, z, t1, t2, random.between(0.0, std::f32::consts::TAU)]);
+        rows.push([x, y, z, t1, t2, random.uniform(0.0, std::f32::consts::TAU)]);
     }
     Twin {
         name: "irradiance_cone",
@@ -390,10 +390,10 @@ fn sphere_rows(count: usize) -> Rows<9> {
         let roughness = roughness(&mut random);
         let wo = viewer(&mut random);
         let mut axis = towards_light(&mut random, wo, roughness);
-        let radius = 10f32.powf(random.between(-4.0, 0.19));
+        let radius = 10f32.powf(random.uniform(-4.0, 0.19));
         if random.next() < 0.2 {
             // Cut by the horizon, or just not.
-            axis = axis.with_z(1.1 * random.between(-1.0, 1.0) * radius.sin());
+            axis = axis.with_z(1.1 * random.uniform(-1.0, 1.0) * radius.sin());
             axis = axis.normalize_or(Vec3::X);
         }
         let awkward = [0.0, 1.0, 2.0, 1.0 - 6e-8];
@@ -560,20 +560,20 @@ fn polygon_rows(count: usize) -> Rows<17> {
         let roughness = roughness(&mut random);
         let wo = viewer(&mut random);
         let mut centre = towards_light(&mut random, wo, roughness);
-        let size = 10f32.powf(random.between(-4.0, 0.5));
+        let size = 10f32.powf(random.uniform(-4.0, 0.5));
         if random.next() < 0.2 {
-            centre = centre.with_z(random.between(-1.0, 1.0) * size.min(1.0));
+            centre = centre.with_z(random.uniform(-1.0, 1.0) * size.min(1.0));
             centre = centre.normalize_or(Vec3::X);
         }
         let (a, b) = centre.any_orthonormal_pair();
         // Seen obliquely up to 63 degrees, stretched up to 20 times, at any distance.
-        let a = a + random.between(-2.0, 2.0) * centre;
+        let a = a + random.uniform(-2.0, 2.0) * centre;
         let (thin, start) = (
-            random.between(0.05, 1.0),
-            random.between(0.0, std::f32::consts::TAU),
+            random.uniform(0.05, 1.0),
+            random.uniform(0.0, std::f32::consts::TAU),
         );
-        let distance = 10f32.powf(random.between(-2.0, 2.0));
-        let notch = random.between(-0.3, 1.0);
+        let distance = 10f32.powf(random.uniform(-2.0, 2.0));
+        let notch = random.uniform(-0.3, 1.0);
         let mut row = [0.0; 17];
         row[..3].copy_from_slice(&wo);
         row[3] = roughness;
@@ -742,7 +742,7 @@ fn wild_rows(count: usize) -> Vec<[f32; 19]> {
             if random.next() < 0.25 {
                 awkward[(random.next() * 8.0) as usize]
             } else {
-                random.between(-1.0, 1.0) * 10f32.powf(random.between(-6.0, 3.0))
+                random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-6.0, 3.0))
             }
         });
         row[..3].copy_from_slice(&random.direction(-1.0));

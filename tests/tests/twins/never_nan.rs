@@ -22,7 +22,7 @@ fn rows(count: usize) -> Vec<[f32; INPUTS]> {
                 if random.next() < 0.15 {
                     awkward[(random.next() * 8.0) as usize]
                 } else {
-                    random.between(-1.0, 1.0) * 10f32.powf(random.between(-6.0, 4.0))
+                    random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-6.0, 4.0))
                 }
             });
             row[..3].copy_from_slice(&wo);
@@ -36,9 +36,9 @@ fn rows(count: usize) -> Vec<[f32; INPUTS]> {
             for at in [14, 15, 19, 20, 21] {
                 row[at] = row[at].abs();
             }
-            row[22] = random.between(-1.0, 1.0) * (row[20] * row[21]).sqrt();
+            row[22] = random.uniform(-1.0, 1.0) * (row[20] * row[21]).sqrt();
             (row[17], row[18]) = (row[17].min(row[18]), row[17].max(row[18]));
-            row[23] = random.between(0.5, 1.0);
+            row[23] = random.uniform(0.5, 1.0);
             row
         })
         .collect()

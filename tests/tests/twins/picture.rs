@@ -67,12 +67,12 @@ fn cells() {
     let mut random = Sequence(3);
     let mut rows = Vec::new();
     for i in 0..1000 {
-        let (a, b) = (random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+        let (a, b) = (random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
         rows.push([
             (i % 13) as f32 / 12.0,
             a.min(b),
             a.max(b),
-            random.between(0.0, 20.0),
+            random.uniform(0.0, 20.0),
         ]);
     }
     Twin {

@@ -29,7 +29,7 @@ fn sine_integrals() {
     let mut random = Sequence(1);
     let mut rows = vec![[0.0], [1.0], [-1.0], [0.999_999], [1e-30], [1e9], [-1e9]];
     for _ in 0..5000 {
-        rows.push([random.between(-1.0, 1.0) * 10f32.powf(random.between(-5.0, 4.0))]);
+        rows.push([random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-5.0, 4.0))]);
     }
     let twin = Twin {
         name: "sine_integral and sine_integral_fast",
@@ -64,9 +64,9 @@ fn chord_integrals() {
     ];
     for _ in 0..5000 {
         rows.push([
-            random.between(-1.0, 1.0) * 10f32.powf(random.between(-4.0, 0.3)),
-            10f32.powf(random.between(-1.0, 1.3)),
-            random.between(0.38, 0.78),
+            random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-4.0, 0.3)),
+            10f32.powf(random.uniform(-1.0, 1.3)),
+            random.uniform(0.38, 0.78),
             random.next().round(),
         ]);
     }
@@ -92,12 +92,12 @@ fn radiances() {
     let mut random = Sequence(3);
     let rows: Vec<[f32; 8]> = (0..3000)
         .map(|_| {
-            let mut q = || random.between(-1.5, 1.5);
+            let mut q = || random.uniform(-1.5, 1.5);
             let mut ends = [q(), q(), q(), q()];
             ends.sort_by(f32::total_cmp);
             let [a, b, c, d] = ends;
-            let width = 10f32.powf(random.between(-0.5, 1.0));
-            let depth = random.between(0.0, 2000.0);
+            let width = 10f32.powf(random.uniform(-0.5, 1.0));
+            let depth = random.uniform(0.0, 2000.0);
             [
                 a,
                 b,
@@ -105,7 +105,7 @@ fn radiances() {
                 d,
                 width,
                 depth,
-                random.between(0.4, 0.7),
+                random.uniform(0.4, 0.7),
                 random.next().round(),
             ]
         })
@@ -184,10 +184,10 @@ fn spheres() {
         .map(|i| {
             let wo = random.direction(0.0);
             let mut axis = random.direction(-1.0);
-            let radius = 10f32.powf(random.between(-3.0, 0.45));
+            let radius = 10f32.powf(random.uniform(-3.0, 0.45));
             if i % 4 > 0 {
                 // Turned to the line.
-                let along = (-wo[0] + radius * random.between(-1.2, 1.2)).clamp(-1.0, 1.0);
+                let along = (-wo[0] + radius * random.uniform(-1.2, 1.2)).clamp(-1.0, 1.0);
                 let rest = (1.0 - along * along).sqrt() / axis[1].hypot(axis[2]).max(1e-6);
                 axis = [along, axis[1] * rest, axis[2] * rest];
             }
@@ -242,14 +242,14 @@ fn triangles(count: usize) -> Vec<[f32; 12]> {
     (0..count)
         .map(|_| {
             let wo = random.direction(0.0);
-            let size = 10f32.powf(random.between(-2.5, 0.5));
-            let along = (-wo[0] + size * random.between(-0.7, 0.7)).clamp(-1.0, 1.0);
-            let (sin, cos) = random.between(-0.4, 3.5).sin_cos();
+            let size = 10f32.powf(random.uniform(-2.5, 0.5));
+            let along = (-wo[0] + size * random.uniform(-0.7, 0.7)).clamp(-1.0, 1.0);
+            let (sin, cos) = random.uniform(-0.4, 3.5).sin_cos();
             let rest = (1.0 - along * along).sqrt();
             let center = glam::Vec3::new(along, rest * cos, rest * sin);
             let (u, w) = glam::Vec3::from(random.direction(-1.0)).any_orthonormal_pair();
-            let turn = random.between(0.0, std::f32::consts::TAU);
-            let scale = 10f32.powf(random.between(-2.0, 2.0));
+            let turn = random.uniform(0.0, std::f32::consts::TAU);
+            let scale = 10f32.powf(random.uniform(-2.0, 2.0));
             let corner = |k: f32| {
                 let (sin, cos) = (turn + k).sin_cos();
                 scale * (center + size * (u * cos + w * sin))
@@ -344,7 +344,7 @@ fn sorting() {
                 if random.next() < 0.3 {
                     2.0
                 } else {
-                    random.between(-1.0, 1.0)
+                    random.uniform(-1.0, 1.0)
                 }
             })
         })
@@ -391,18 +391,18 @@ fn footprints() {
         [0.0, 3.0, -50.0, 50.0, 16.0, 40.0, 0.0, 0.0, 40.0],
     ];
     for _ in 0..5000 {
-        let size = 10f32.powf(random.between(-1.0, 3.0));
-        let (sin, cos) = random.between(0.0, std::f32::consts::TAU).sin_cos();
-        let (stretch, slant) = (random.between(0.3, 3.0), random.between(-0.5, 0.5));
+        let size = 10f32.powf(random.uniform(-1.0, 3.0));
+        let (sin, cos) = random.uniform(0.0, std::f32::consts::TAU).sin_cos();
+        let (stretch, slant) = (random.uniform(0.3, 3.0), random.uniform(-0.5, 0.5));
         let reach = size + 40.0;
-        let center = random.between(-1.0, 1.0) * reach;
-        let half = 10f32.powf(random.between(0.0, 3.5));
+        let center = random.uniform(-1.0, 1.0) * reach;
+        let half = 10f32.powf(random.uniform(0.0, 3.5));
         rows.push([
-            random.between(0.1, 20.0),
-            random.between(-1.0, 1.0) * reach,
+            random.uniform(0.1, 20.0),
+            random.uniform(-1.0, 1.0) * reach,
             center - half,
             center + half,
-            random.between(14.0, 16.5),
+            random.uniform(14.0, 16.5),
             size * cos,
             size * sin,
             size * (slant * cos - stretch * sin),
@@ -452,7 +452,7 @@ fn awkward(count: usize) -> Vec<[f32; AWKWARD]> {
                 if random.next() < 0.15 {
                     numbers[(random.next() * 8.0) as usize]
                 } else {
-                    random.between(-1.0, 1.0) * 10f32.powf(random.between(-6.0, 4.0))
+                    random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-6.0, 4.0))
                 }
             });
             row[..3].copy_from_slice(&random.direction(0.0));

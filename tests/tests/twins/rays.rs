@@ -18,13 +18,13 @@ fn scene() -> Scene {
         .metal("steel", "steel")
         .object("plate", "steel", DISK)
         .object("ball", "steel", "sphere = { radius_m = 0.02 }")
-        .with("translation_m = [0.01, 0.0, 0.03]")
+        .with_lines("translation_m = [0.01, 0.0, 0.03]")
         .object(
             "bowl",
             "steel",
             "lathe = { profile_m = [[0.0, 0.0], [0.05, 0.0], [0.066, 0.02]] }",
         )
-        .with("translation_m = [-0.05, 0.0, 0.005]")
+        .with_lines("translation_m = [-0.05, 0.0, 0.005]")
         .scene();
     let mesh = Arc::make_mut(&mut scene.objects[0].mesh);
     let count = mesh.triangles.len();
@@ -47,15 +47,15 @@ fn rays_meet_the_same_triangles() {
     let mut random = Sequence(5);
     let mut rows = Vec::new();
     for i in 0..8000 {
-        let at = [-0.09, -0.09, 0.001].map(|low| random.between(low, 0.09));
+        let at = [-0.09, -0.09, 0.001].map(|low| random.uniform(low, 0.09));
         let mut towards = random.direction(-1.0);
         if i % 2 == 0 {
             // Rays to the ball's middle, and past its edge.
-            let to = [0.01, 0.0, 0.03].map(|c: f32| c + random.between(-0.02, 0.02));
+            let to = [0.01, 0.0, 0.03].map(|c: f32| c + random.uniform(-0.02, 0.02));
             let v = Vec3::from(to) - Vec3::from(at);
             towards = v.normalize_or(Vec3::X).to_array();
         }
-        let limit_m = random.between(0.0, 0.2);
+        let limit_m = random.uniform(0.0, 0.2);
         rows.push([
             at[0], at[1], at[2], towards[0], towards[1], towards[2], limit_m,
         ]);

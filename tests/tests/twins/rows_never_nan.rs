@@ -13,24 +13,24 @@ use std::sync::LazyLock;
 const CONFIGURATIONS: usize = 250_000;
 
 /// A random number in a range of scene files, often at one of its ends.
-fn within(random: &mut Sequence, low: f64, high: f64) -> f64 {
+fn random_in_range(random: &mut Sequence, low: f64, high: f64) -> f64 {
     match random.next() {
         r if r < 0.1 => low,
         r if r < 0.2 => high,
         // As many small numbers as large ones.
         r if low > 0.0 && r < 0.6 => low * (high / low).powf(f64::from(random.next())),
-        _ => f64::from(random.between(low as f32, high as f32)).clamp(low, high),
+        _ => f64::from(random.uniform(low as f32, high as f32)).clamp(low, high),
     }
 }
 
 fn row(random: &mut Sequence) -> Row {
-    let pitch_um = within(random, 0.3, 50.0);
+    let pitch_um = random_in_range(random, 0.3, 50.0);
     Row {
         pitch_um,
-        width_um: within(random, 1e-3 * pitch_um, pitch_um),
-        depth_nm: within(random, 0.0, 2000.0),
-        depth_spread: within(random, 0.0, 1.0),
-        jitter_um: within(random, 0.0, pitch_um),
+        width_um: random_in_range(random, 1e-3 * pitch_um, pitch_um),
+        depth_nm: random_in_range(random, 0.0, 2000.0),
+        depth_spread: random_in_range(random, 0.0, 1.0),
+        jitter_um: random_in_range(random, 0.0, pitch_um),
     }
 }
 
@@ -43,10 +43,10 @@ fn formulas_of_rows() {
     let mut random = Sequence(21);
     for _ in 0..CONFIGURATIONS {
         let row = row(&mut random);
-        let q = within(&mut random, -2.0, 2.0);
-        let share = within(&mut random, 0.0, 1.0);
-        let wavelength_nm = within(&mut random, 380.0, 780.0);
-        let band_std = within(&mut random, 1e-3, 0.05);
+        let q = random_in_range(&mut random, -2.0, 2.0);
+        let share = random_in_range(&mut random, 0.0, 1.0);
+        let wavelength_nm = random_in_range(&mut random, 380.0, 780.0);
+        let band_std = random_in_range(&mut random, 1e-3, 0.05);
         let density = row.density(q, share, wavelength_nm, band_std);
         assert!(
             density.is_finite() && density > -1e-9,
@@ -93,8 +93,8 @@ fn views(count: usize) -> Vec<[f32; INPUTS]> {
     let direction = |random: &mut Sequence, lowest: f32| match random.next() {
         r if r < 0.05 => [0.0, 0.0, 1.0],
         r if r < 0.2 => {
-            let angle = random.between(0.0, std::f32::consts::TAU);
-            let z = random.between(0.0, 1.0).powi(4) * 0.01;
+            let angle = random.uniform(0.0, std::f32::consts::TAU);
+            let z = random.uniform(0.0, 1.0).powi(4) * 0.01;
             let side = (1.0 - z * z).sqrt();
             [side * angle.cos(), side * angle.sin(), z.max(0.01)]
         }
@@ -111,12 +111,12 @@ fn views(count: usize) -> Vec<[f32; INPUTS]> {
                 r if r < 0.2 => 1e-6,
                 _ => random.next().powi(3) * 0.999,
             };
-            row[7] = within(&mut random, -0.1, 0.1) as f32;
+            row[7] = random_in_range(&mut random, -0.1, 0.1) as f32;
             row[8] = (random.next() * TABLES.len() as f32).floor();
-            row[9] = within(&mut random, -3.0, 3.0) as f32;
-            row[10] = random.between(-1e-3, 1e-3);
-            row[11] = within(&mut random, 0.0, 1.6) as f32;
-            row[12] = random.between(0.0, 6.3);
+            row[9] = random_in_range(&mut random, -3.0, 3.0) as f32;
+            row[10] = random.uniform(-1e-3, 1e-3);
+            row[11] = random_in_range(&mut random, 0.0, 1.6) as f32;
+            row[12] = random.uniform(0.0, 6.3);
             row
         })
         .collect()

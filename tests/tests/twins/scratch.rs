@@ -26,20 +26,20 @@ fn footprint_shares() {
         [2.0, 1e9, -1e9, 1e9, 16.0, 9.0, 9.0, 0.0],
     ];
     for _ in 0..2000 {
-        let spread = 10f32.powf(random.between(-1.0, 4.0));
+        let spread = 10f32.powf(random.uniform(-1.0, 4.0));
         let (a, b) = (
             spread * spread,
-            (spread * random.between(0.5, 20.0)).powi(2),
+            (spread * random.uniform(0.5, 20.0)).powi(2),
         );
-        let c = random.between(-0.99, 0.99) * (a * b).sqrt();
-        let center = random.between(-2.0, 2.0) * b.sqrt();
-        let half = 10f32.powf(random.between(0.0, 4.0));
+        let c = random.uniform(-0.99, 0.99) * (a * b).sqrt();
+        let center = random.uniform(-2.0, 2.0) * b.sqrt();
+        let half = 10f32.powf(random.uniform(0.0, 4.0));
         rows.push([
-            random.between(0.1, 20.0),
-            random.between(-2.0, 2.0) * a.sqrt(),
+            random.uniform(0.1, 20.0),
+            random.uniform(-2.0, 2.0) * a.sqrt(),
             center - half,
             center + half,
-            random.between(14.0, 16.5),
+            random.uniform(14.0, 16.5),
             a,
             b,
             c,
@@ -83,8 +83,8 @@ fn seen_parts() {
         [0.0, 0.0],
     ];
     for _ in 0..2000 {
-        let low = random.between(-3.4, 3.4);
-        rows.push([low, low + 10f32.powf(random.between(-3.0, 1.0))]);
+        let low = random.uniform(-3.4, 3.4);
+        rows.push([low, low + 10f32.powf(random.uniform(-3.0, 1.0))]);
     }
     // What is not seen has no part.
     rows.retain(|[low, high]| *high >= -3.4 && *low <= 3.4);
@@ -180,8 +180,8 @@ fn table_look_ups() {
     ];
     for _ in 0..4000 {
         rows.push([
-            random.between(-1.0, 1.0) * 10f32.powf(random.between(-3.0, 2.0)),
-            random.between(0.0, 2000.0),
+            random.uniform(-1.0, 1.0) * 10f32.powf(random.uniform(-3.0, 2.0)),
+            random.uniform(0.0, 2000.0),
         ]);
     }
     Twin {
@@ -216,11 +216,11 @@ fn masks() {
     ];
     for _ in 0..500 {
         rows.push([
-            random.between(0.0, 1.0),
-            random.between(0.0, 4.0),
-            random.between(0.0, 1.0),
-            random.between(0.0, 4.0),
-            random.between(0.5, 1.0),
+            random.uniform(0.0, 1.0),
+            random.uniform(0.0, 4.0),
+            random.uniform(0.0, 1.0),
+            random.uniform(0.0, 4.0),
+            random.uniform(0.5, 1.0),
         ]);
     }
     Twin {

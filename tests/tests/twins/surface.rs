@@ -22,16 +22,16 @@ fn footprints() {
     let mut rows = Vec::new();
     for i in 0..4000 {
         // Rays as the camera's: 1 along the view axis, here -z. Normals from facing to beyond edge-on.
-        let ray = [random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+        let ray = [random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)];
         let mut normal = random.direction(-1.0);
         if i % 8 == 0 {
             // Within the bound on the cosine, on either side of it: across the ray but for a little.
             let along = DVec3::new(ray[0].into(), ray[1].into(), -1.0).normalize();
             let across = along.any_orthonormal_vector();
-            let cos = 1.5 * MIN_FOOTPRINT_COS * f64::from(random.between(-1.0, 1.0));
+            let cos = 1.5 * MIN_FOOTPRINT_COS * f64::from(random.uniform(-1.0, 1.0));
             normal = (across + cos * along).normalize().as_vec3().to_array();
         }
-        let depth = 10f32.powf(random.between(-3.0, 3.0));
+        let depth = 10f32.powf(random.uniform(-3.0, 3.0));
         // Results are compared in units of depth times a pixel's angle.
         rows.push([
             ray[0], ray[1], normal[0], normal[1], normal[2], depth, 0.001, 0.0005,
@@ -75,17 +75,17 @@ fn slopes_of_a_pixel() {
     let mut random = Sequence(3);
     let rows: Vec<[f32; 8]> = (0..4000)
         .map(|_| {
-            let [a, b, c, d] = [0; 4].map(|_| random.between(-0.1, 0.1));
-            let distance = 10f32.powf(random.between(-2.0, 1.0));
+            let [a, b, c, d] = [0; 4].map(|_| random.uniform(-0.1, 0.1));
+            let distance = 10f32.powf(random.uniform(-2.0, 1.0));
             [
                 a,
                 b,
                 c,
                 d,
-                random.between(0.005, 1.0),
+                random.uniform(0.005, 1.0),
                 distance,
-                random.between(0.0, 5.0),
-                random.between(0.0, 0.1),
+                random.uniform(0.0, 5.0),
+                random.uniform(0.0, 0.1),
             ]
         })
         .collect();
@@ -174,14 +174,14 @@ fn barycentric_coordinates() {
     let mut rows = Vec::new();
     for _ in 0..4000 {
         // A triangle by its point that the ray meets, a triangle of any size around it, and a ray from anywhere.
-        let size = 10f32.powf(random.between(-3.0, 1.0));
+        let size = 10f32.powf(random.uniform(-3.0, 1.0));
         let (u, w) = (random.next(), random.next());
         let (u, w) = if u + w > 1.0 {
             (1.0 - u, 1.0 - w)
         } else {
             (u, w)
         };
-        let e: [f32; 4] = std::array::from_fn(|_| size * random.between(-1.0, 1.0));
+        let e: [f32; 4] = std::array::from_fn(|_| size * random.uniform(-1.0, 1.0));
         let ray = random.direction(-1.0);
         rows.push([
             u,
@@ -193,7 +193,7 @@ fn barycentric_coordinates() {
             ray[0],
             ray[1],
             ray[2],
-            random.between(0.5, 2.0),
+            random.uniform(0.5, 2.0),
         ]);
     }
     // Slivers and triangles seen edge-on have no answer to compare.
@@ -259,13 +259,13 @@ fn frames_under_coats() {
     let rows: Vec<[f32; 6]> = (0..2000)
         .map(|_| {
             let n = random.direction(0.3);
-            let turn = [0; 2].map(|_| random.between(-0.2, 0.2));
+            let turn = [0; 2].map(|_| random.uniform(-0.2, 0.2));
             // Beyond what a normal is bent back from.
             [
                 n[0],
                 n[1],
                 n[2],
-                random.between(-0.2, 0.2),
+                random.uniform(-0.2, 0.2),
                 turn[0],
                 turn[1],
             ]
@@ -312,7 +312,7 @@ fn packed_coats_and_emission() {
     let mut random = Sequence(6);
     let mut rows: Vec<[f32; 6]> = vec![[0.0; 6], [-0.0; 6], [1e6, 1e-6, 1.0, 1.0, 1.0, 1.0]];
     for _ in 0..2000 {
-        let emission = [0; 3].map(|_| 10f32.powf(random.between(-6.0, 4.0)));
+        let emission = [0; 3].map(|_| 10f32.powf(random.uniform(-6.0, 4.0)));
         let coat = [0; 3].map(|_| random.next());
         rows.push([
             emission[0],

@@ -11,7 +11,7 @@ fn outlines() {
     let mut rows = Vec::new();
     while rows.len() < 4000 {
         let a = DVec3::from(random.direction(-1.0).map(f64::from))
-            * f64::from(random.between(0.3, 2.0));
+            * f64::from(random.uniform(0.3, 2.0));
         let along = DVec3::from(random.direction(-1.0).map(f64::from));
         // A third along the way to the point: seen from beyond an end.
         let along = if rows.len() % 3 == 0 {
@@ -19,8 +19,8 @@ fn outlines() {
         } else {
             along
         };
-        let b = a + along * f64::from(random.between(0.05, 2.0));
-        let radius = random.between(0.01, 0.25);
+        let b = a + along * f64::from(random.uniform(0.05, 2.0));
+        let radius = random.uniform(0.01, 0.25);
         let height = a.cross(along).length();
         // Single precision may decide otherwise where the far end is barely visible or hidden, and from
         // inside.

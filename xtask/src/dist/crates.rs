@@ -43,7 +43,7 @@ struct Crate {
 }
 
 impl Crates {
-    pub fn of(root: &Path) -> anyhow::Result<Self> {
+    pub fn read(root: &Path) -> anyhow::Result<Self> {
         let asked = Command::new("cargo")
             .current_dir(root)
             .args(["metadata", "--format-version", "1", "--locked"])
@@ -55,10 +55,10 @@ impl Crates {
         let sums = lock["package"].as_array().into_iter().flatten();
         let text = |it: &toml::Value, key| Some(it.get(key)?.as_str()?.to_owned());
         let sums: BTreeMap<Id, String> = sums
-            .filter_map(|it| {
+            .filter_map(|package| {
                 Some((
-                    (text(it, "name")?, text(it, "version")?),
-                    text(it, "checksum")?,
+                    (text(package, "name")?, text(package, "version")?),
+                    text(package, "checksum")?,
                 ))
             })
             .collect();

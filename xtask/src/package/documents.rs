@@ -16,10 +16,10 @@ pub(super) fn programs(root: &Path, output: &Path, wgsl: &str) -> anyhow::Result
         let (place, text) = (&*block.place, &*block.text);
         let script = match &*block.language {
             "js" => text,
-            "html" => between(text, "<script type=\"module\">", "</script>"),
+            "html" => text_between(text, "<script type=\"module\">", "</script>"),
             _ => continue,
         };
-        let named = between(text, "<script type=\"importmap\">", "</script>");
+        let named = text_between(text, "<script type=\"importmap\">", "</script>");
         for file in named
             .split('"')
             .filter(|part| part.starts_with("./node_modules/"))
@@ -32,7 +32,7 @@ pub(super) fn programs(root: &Path, output: &Path, wgsl: &str) -> anyhow::Result
             ensure!(is_there, "{place}: {file} is no file of a package");
         }
         let element = root.join("packages/hairline-viewer/src/hairline-viewer.js");
-        let attributes = between(text, "<hairline-viewer ", ">").split('=');
+        let attributes = text_between(text, "<hairline-viewer ", ">").split('=');
         for name in attributes.filter_map(|part| part.rsplit([' ', '"']).next()) {
             let known = std::fs::read_to_string(&element)?.contains(&format!("'{name}'"));
             ensure!(
@@ -40,7 +40,7 @@ pub(super) fn programs(root: &Path, output: &Path, wgsl: &str) -> anyhow::Result
                 "{place}: <hairline-viewer> has no {name}"
             );
         }
-        let shader = between(text, "code: `${hairlineWgsl}", "`");
+        let shader = text_between(text, "code: `${hairlineWgsl}", "`");
         if !shader.is_empty() {
             validate(&format!("{wgsl}{shader}")).context(place.to_owned())?;
         }
@@ -70,7 +70,7 @@ pub(super) fn programs(root: &Path, output: &Path, wgsl: &str) -> anyhow::Result
 }
 
 /// The text between the first `start` and what ends it, or none.
-fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
+fn text_between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
     let rest = text.split_once(start).map_or("", |(_, rest)| rest);
     rest.split_once(end).map_or("", |(inner, _)| inner)
 }

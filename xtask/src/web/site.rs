@@ -122,7 +122,7 @@ impl Site<'_> {
         fs::create_dir_all(path.parent().unwrap_or(self.output))?;
         Ok(fs::write(
             path,
-            around(folder, title.unwrap_or("Hairline"), &body),
+            wrap_page(folder, title.unwrap_or("Hairline"), &body),
         )?)
     }
 
@@ -225,7 +225,7 @@ fn plain(path: &Path) -> Option<PathBuf> {
     Some(plain)
 }
 
-fn around(folder: &Path, title: &str, body: &str) -> String {
+fn wrap_page(folder: &Path, title: &str, body: &str) -> String {
     let up = "../".repeat(folder.components().count());
     let above: String = ABOVE
         .iter()

@@ -193,7 +193,7 @@ fn open<'d>(display: &'d Display, folder: &Path, text: &str) -> (Layout, Window<
     let scene = folder.join("plate.toml");
     std::fs::write(&scene, text).unwrap();
     (
-        Layout::of(&scene, display),
+        Layout::new(&scene, display),
         Window::open(display, folder, &scene),
     )
 }

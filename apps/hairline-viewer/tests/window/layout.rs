@@ -31,7 +31,7 @@ pub struct Lamp {
 
 impl Layout {
     /// Layout of the viewer on this scene, in a window as large as the display.
-    pub fn of(scene: &Path, display: &Display) -> Self {
+    pub fn new(scene: &Path, display: &Display) -> Self {
         let scene = scene.to_owned();
         let mut harness = Harness::builder()
             .with_size(display.size_px().map(f32::from))

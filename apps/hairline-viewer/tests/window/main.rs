@@ -224,7 +224,7 @@ fn an_artist_turns_the_view_drags_a_value_undoes_and_saves() {
     };
     let scene = folder.path().join("plate.toml");
     let before = Description::from_toml(SCENE, &scene).unwrap();
-    let layout = Layout::of(&scene, &display);
+    let layout = Layout::new(&scene, &display);
     let window = Window::open_with(&display, folder.path(), &scene, &["--shadows", "off"]);
     let first = window.settled(&layout);
     assert!(first.brightest() > 100, "the picture is dark");
@@ -270,7 +270,7 @@ fn an_artist_opens_turns_changes_draws_undoes_saves_and_comes_back() {
     };
     let scene = folder.path().join("plate.toml");
     let before = Description::from_toml(SCENE, &scene).unwrap();
-    let layout = Layout::of(&scene, &display);
+    let layout = Layout::new(&scene, &display);
     // Samples that add up settle late.
     let open = || Window::open_with(&display, folder.path(), &scene, &["--shadows", "off"]);
     let window = open();

@@ -34,7 +34,7 @@ impl<'d> Studio<'d> {
         std::fs::write(&scene, SCENE).unwrap();
         Self {
             display,
-            layout: Layout::of(&scene, display),
+            layout: Layout::new(&scene, display),
             window: Window::open(display, folder, &scene),
         }
     }

@@ -106,7 +106,7 @@ pub struct Spread {
 
 impl Spread {
     /// Spread of at least one value.
-    pub fn of(values: &[f64]) -> Self {
+    pub fn from_values(values: &[f64]) -> Self {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
         let at = |share: f64| {
@@ -162,11 +162,11 @@ mod tests {
 
     #[test]
     fn a_spread_is_median_and_quartiles() {
-        let spread = Spread::of(&[5.0, 1.0, 2.0, 4.0, 3.0]);
+        let spread = Spread::from_values(&[5.0, 1.0, 2.0, 4.0, 3.0]);
         assert_eq!((spread.median, spread.quartiles), (3.0, [2.0, 4.0]));
-        let even = Spread::of(&[1.0, 2.0, 3.0, 4.0]);
+        let even = Spread::from_values(&[1.0, 2.0, 3.0, 4.0]);
         assert_eq!((even.median, even.quartiles), (2.5, [1.75, 3.25]));
-        let one = Spread::of(&[7.0]);
+        let one = Spread::from_values(&[7.0]);
         assert_eq!((one.median, one.quartiles), (7.0, [7.0; 2]));
     }
 }

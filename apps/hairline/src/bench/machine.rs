@@ -23,7 +23,7 @@ pub struct Machine {
 
 impl Machine {
     /// The machine that `worker` works on.
-    pub fn of(worker: &Worker) -> Self {
+    pub fn describe(worker: &Worker) -> Self {
         let system =
             System::new_with_specifics(RefreshKind::nothing().with_cpu(CpuRefreshKind::nothing()));
         let cpu = system.cpus().first();

@@ -139,7 +139,7 @@ depth_nm = {{ mean = 220.0, spread = 0.3 }}
     }
 
     /// Combines the camera and the lamps of this scene with the disk of another.
-    pub fn of(self, worn: &Scene) -> Result<Scene, Failure> {
+    pub fn with_disk_of(self, worn: &Scene) -> Result<Scene, Failure> {
         let bare = Self {
             scratches: 0,
             ..self

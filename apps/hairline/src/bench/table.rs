@@ -38,7 +38,7 @@ pub fn of_the_talk(
                 zoom,
                 ..base
             };
-            let scene = stage.of(&worn)?;
+            let scene = stage.with_disk_of(&worn)?;
             let middle = (row != TableRow::Intersection).then(|| rim_of_reflection(&scene));
             let group = Group {
                 row,

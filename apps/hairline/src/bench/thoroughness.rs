@@ -13,7 +13,7 @@ pub struct Thoroughness {
 }
 
 impl Thoroughness {
-    pub fn of(arguments: &cli::Bench) -> Self {
+    pub fn from_arguments(arguments: &cli::Bench) -> Self {
         let quick = arguments.quick;
         let pick = |thorough: u64, quickly: u64| {
             Duration::from_millis(if quick { quickly } else { thorough })

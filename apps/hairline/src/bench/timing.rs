@@ -207,7 +207,7 @@ impl Runs {
         let scale = f64::from(of_rows) / f64::from(rows.max(1));
         let spread = |values: &[f64]| {
             let scaled: Vec<f64> = values.iter().map(|v| scale * v).collect();
-            Spread::of(&scaled)
+            Spread::from_values(&scaled)
         };
         Outcome::Timing(Timing {
             wall_ms: spread(&self.wall),

@@ -68,7 +68,7 @@ pub fn page(
                     (magnifier())
                     (figures(comparison))
                 }
-                (about(a, b, &views))
+                (footnotes(a, b, &views))
                 (data(a, &views, display).context("the report").map_err(Failure::Work)?)
                 script { (PreEscaped(SCRIPT)) }
             }
@@ -425,7 +425,7 @@ fn verdict(layer: &LayerComparison) -> Markup {
 }
 
 /// Notes in the files on their making, and the contents of the report.
-fn about(a: &Side, b: &Side, views: &[View]) -> Markup {
+fn footnotes(a: &Side, b: &Side, views: &[View]) -> Markup {
     let embedded = views.iter().any(|view| view.linear.is_some());
     html! {
         footer {

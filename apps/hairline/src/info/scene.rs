@@ -87,7 +87,7 @@ enum Strength {
 }
 
 impl Strength {
-    fn of(light: &description::Light) -> Self {
+    fn from_light(light: &description::Light) -> Self {
         match light.kind {
             LightKind::Sun {
                 direction,
@@ -222,7 +222,7 @@ fn contents(loaded: &Loaded) -> Contents {
     let lights = description.lights.iter().map(|light| Lamp {
         name: light.name.clone(),
         kind: light.kind.name(),
-        strength: Strength::of(light),
+        strength: Strength::from_light(light),
         hidden: light.hidden,
     });
     let up = scene.camera.up;
@@ -258,7 +258,7 @@ fn contents(loaded: &Loaded) -> Contents {
         textures: scene.textures.len(),
         left_out: left_out(loaded),
         memory: Memory {
-            estimate_bytes: Estimate::of(description, &loaded.folder).bytes()
+            estimate_bytes: Estimate::from_description(description, &loaded.folder).bytes()
                 + laid
                 + textures_bytes(scene),
             available_bytes: available_bytes(),
@@ -270,12 +270,12 @@ fn left_out(loaded: &Loaded) -> Vec<LeftOut> {
     let models = loaded.description.left_out(&loaded.folder).into_iter();
     let of_model = |(file, left_out): (PathBuf, Vec<hairline_document::LeftOut>)| {
         let file = file.to_string_lossy().into_owned();
-        left_out.into_iter().map(move |it| LeftOut {
+        left_out.into_iter().map(move |content| LeftOut {
             file: file.clone(),
-            what: it.what,
-            count: it.count,
-            meaning: it.meaning,
-            matters: it.matters,
+            what: content.what,
+            count: content.count,
+            meaning: content.meaning,
+            matters: content.matters,
         })
     };
     models.flat_map(of_model).collect()

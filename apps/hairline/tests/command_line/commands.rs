@@ -15,7 +15,7 @@ fn scene(more: &str) -> String {
     bare_plate()
         .size_px([48, 27])
         .sphere([0.06, 0.10, 0.25], 0.01, 40.0)
-        .with("name = \"lamp\"")
+        .with_lines("name = \"lamp\"")
         .part(more)
         .to_string()
 }

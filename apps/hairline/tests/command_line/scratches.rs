@@ -108,10 +108,10 @@ fn light_that_hardly_shows_scratches_is_told_of() {
     ] {
         let scene = SceneFile::seen_from([0.0, -0.3, 0.3])
             .metal("m", "steel")
-            .with(base)
+            .with_lines(base)
             .object("plate", "m", DISK)
             .random("plate", 1500)
-            .with(&format!(
+            .with_lines(&format!(
                 "length_m = 0.03\nwidth_um = 4.0\ndepth_nm = {depth_nm}"
             ));
         let folder = folder_with("s.toml", &scene.to_string());

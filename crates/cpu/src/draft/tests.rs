@@ -9,9 +9,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn scene() -> Scene {
     oblique_plate(6000, 0.03)
-        .with("width_um = { mean = 3.0, spread = 0.2 }")
+        .with_lines("width_um = { mean = 3.0, spread = 0.2 }")
         .random("plate", 7)
-        .with("seed = 2")
+        .with_lines("seed = 2")
         .fov_y_deg(30.0)
         .size_px([40, 32])
         .scene()

@@ -25,10 +25,10 @@ fn dish() -> Scene {
         .fov_y_deg(9.0)
         .size_px([48, 32])
         .metal("m", "steel")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .object("o", "m", &format!("lathe = {{ profile_m = {profile} }}"))
         .random("o", 4000)
-        .with("seed = 3\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0")
+        .with_lines("seed = 3\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0")
         .sphere([0.1, 0.2, 0.3], 0.01, 100.0)
         .scene()
 }

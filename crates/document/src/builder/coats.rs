@@ -47,7 +47,7 @@ impl<'a> Work<'a> {
             .filter(|(_, coat)| is_due(coat))
         {
             let key = format!("scratches[{i}]");
-            let ground = surfaces[coat.object].ground(&OnPart::of(coat.table), &key)?;
+            let ground = surfaces[coat.object].ground(&OnPart::from_layer(coat.table), &key)?;
             coat.ground = Some(ground);
         }
         let mut tables = Vec::new();
@@ -116,7 +116,7 @@ impl<'a> Work<'a> {
             let number = standing.number;
             let is_hidden = self.description.objects[object].hidden || surfaces[object].is_gone();
             let is_shown = standing.is_shown && !is_hidden;
-            let ground = surfaces[object].ground_if_made(&OnPart::of(table));
+            let ground = surfaces[object].ground_if_made(&OnPart::from_layer(table));
             // Before they are read.
             let files = self.stamps(table);
             let laid = ground
@@ -144,7 +144,7 @@ impl<'a> Work<'a> {
         };
         let files = list.into_iter().chain(table.place.files());
         files
-            .map(|file| Stamp::of(&self.base_dir.join(file)))
+            .map(|file| Stamp::read(&self.base_dir.join(file)))
             .collect()
     }
 
@@ -178,7 +178,7 @@ impl<'a> Work<'a> {
     /// A picture of a layer's places. `key` is the way to it.
     fn grey_map(&mut self, key: &str, file: &Path, used_bytes: f64) -> Result<Arc<GreyMap>, Error> {
         let path = self.base_dir.join(file);
-        let stamp = Stamp::of(&path);
+        let stamp = Stamp::read(&path);
         let known = self
             .new
             .grey_map(&stamp)

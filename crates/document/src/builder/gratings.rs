@@ -76,7 +76,7 @@ impl Work<'_> {
         free_bytes: &mut f64,
     ) -> Result<Arc<Vec<Texture>>, Error> {
         let path = self.base_dir.join(file);
-        let stamp = Stamp::of(&path);
+        let stamp = Stamp::read(&path);
         let kept = match self.old.groove_picture(&stamp, kind) {
             Some(kept) => kept,
             None => {

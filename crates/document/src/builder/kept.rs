@@ -50,7 +50,7 @@ pub(super) enum MapKey {
 impl MapKey {
     pub(super) fn new(map: &Map, base_dir: &FilePath) -> Self {
         match map {
-            Map::File(file) => Self::File(Stamp::of(&base_dir.join(file))),
+            Map::File(file) => Self::File(Stamp::read(&base_dir.join(file))),
             Map::BuiltIn(map) => Self::BuiltIn(*map),
         }
     }
@@ -80,7 +80,7 @@ impl SurfaceKey {
             Surface::Shape(_) => (None, Placing::NONE),
             Surface::Mesh(file) => {
                 let placing = object.placing(world_up);
-                (Some(Stamp::of(&base_dir.join(file))), placing)
+                (Some(Stamp::read(&base_dir.join(file))), placing)
             }
         };
         Self {
@@ -187,7 +187,7 @@ impl KeptSurface {
         }
         Ok(Self {
             key: surface_key,
-            others: files.iter().map(Stamp::of).collect(),
+            others: files.iter().map(Stamp::read).collect(),
             mesh: Arc::new(mesh),
             first_material: 0,
             materials: Arc::new(materials),

@@ -32,7 +32,7 @@ pub(super) struct Surroundings<'a> {
 }
 
 impl OnPart {
-    pub(super) fn of(table: &Scratches) -> Self {
+    pub(super) fn from_layer(table: &Scratches) -> Self {
         Self {
             material: table.material.clone(),
             node: table.node.clone(),

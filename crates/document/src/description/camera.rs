@@ -17,12 +17,12 @@ use crate::upright::vertical_axis;
 #[keyed(table, check = Camera::check_view)]
 pub struct Camera {
     /// Where the camera is.
-    #[key(unit("m").within(-1000.0, 1000.0)
+    #[key(unit("m").in_range(-1000.0, 1000.0)
         .control("Position", linear(-5.0, 5.0).sized(), "Where the camera stands. Scratches flash and change colour as it moves: each shows only to eyes in its own fan."))]
     #[read(position_m)]
     pub position_m: [f64; 3],
     /// The point in the centre of the picture.
-    #[key(unit("m").within(-1000.0, 1000.0).range_words("±1000 each, not the position")
+    #[key(unit("m").in_range(-1000.0, 1000.0).range_words("±1000 each, not the position")
         .control("Target", linear(-5.0, 5.0).sized(), "The point in the middle of the picture; orbiting turns about it."))]
     #[read(target_m)]
     pub target_m: [f64; 3],
@@ -33,32 +33,32 @@ pub struct Camera {
         .control("Up", linear(-1.0, 1.0), "The direction that is up in the picture. Tilt it to roll the camera."))]
     pub up: [f64; 3],
     /// Vertical field of view.
-    #[key(unit("°").number(30.0).within(0.001, 179.0)
+    #[key(unit("°").number(30.0).in_range(0.001, 179.0)
         .control("Field of view", linear(5.0, 90.0), "Small: a long lens, flat, with highlights that spread over much of the surface. Large: a wide lens, with tighter highlights."))]
     #[then(Camera::FOCAL_LENGTH_MM)]
     pub fov_y_deg: f64,
     /// How wide the film is, that is, the picture of `size_px`: what focal lengths and f-stops count by, in this file and in the viewer.
-    #[key(unit("mm").number(36.0).within(0.1, 1000.0)
+    #[key(unit("mm").number(36.0).in_range(0.1, 1000.0)
         .control("Sensor width", linear(0.005, 0.06), "How wide the film behind the lens is: 36 mm for full frame, 23.5 mm for APS-C, 6 mm for a phone. The focal length stays, so a narrower film sees less."))]
     pub sensor_width_mm: Option<f64>,
     /// Radiances are multiplied by 2^`exposure_ev` before the tone map.
-    #[key(unit("stops").number(0.0).within(-64.0, 64.0)
+    #[key(unit("stops").number(0.0).in_range(-64.0, 64.0)
         .control("Exposure", linear(-8.0, 8.0), "Each step doubles or halves the brightness. High enough for the core of a highlight to wash out softly, low enough to keep the colours around it."))]
     pub exposure_ev: f64,
     /// Diameter of the lens's opening; none, or 0: a pinhole.
-    #[key(unit("mm").none().within(0.0, 1000.0)
+    #[key(unit("mm").none().in_range(0.0, 1000.0)
         .control("Opening", linear(1e-3, 0.1).sized(), "Diameter of the lens's opening: the larger, the sooner things blur before and behind what is in focus. The focal length over the f-stop."))]
     #[read(lens::aperture_mm)]
     #[then(Camera::F_STOP)]
     pub aperture_mm: Option<f64>,
     /// With an opening: how far away things are sharp, along the view.
-    #[key(unit("m").words("the distance of the target").within(SMALLEST_M, LARGEST_M)
+    #[key(unit("m").words("the distance of the target").in_range(SMALLEST_M, LARGEST_M)
         .control("Focus", linear(0.1, 5.0).sized(), "How far away things are sharp, along the view."))]
     #[read(lens::focus_distance_m)]
     pub focus_distance_m: Option<f64>,
     /// Moves the picture across what the lens shows, to the right and up, as a view camera does: `[0, 0.1]` shows a tenth of the picture's height
     /// more above and less below, and upright lines stay parallel. The target is off the centre by as much the other way.
-    #[key(unit("heights of the picture").none().within(-10.0, 10.0).range_words("two numbers, ±10 each"))]
+    #[key(unit("heights of the picture").none().in_range(-10.0, 10.0).range_words("two numbers, ±10 each"))]
     pub shift: Option<[f64; 2]>,
     /// The axis of the world that points up, for a camera that is rolled or looks steeply down: models stand and environments have their top by it,
     /// whatever is up in the picture.
@@ -95,14 +95,14 @@ impl Camera {
     pub const FOCAL_LENGTH_MM: &'static Key = &Key::new("focal_length_mm", Form::Number)
         .unit("mm")
         .none()
-        .within(0.1, 10_000.0)
+        .in_range(0.1, 10_000.0)
         .means("The field of view in the words of photographers; in place of `fov_y_deg`. Where both are given they must agree within 0.05 degrees.")
         .control("Focal length", log(0.014, 0.3), "The field of view as lenses tell it: 24 mm is wide, 50 mm what the eye is used to, 100 mm and more for details. The f-stop stays.");
 
     /// The opening in the words of photographers.
     pub const F_STOP: &'static Key = &Key::new("f_stop", Form::Number)
         .none()
-        .within(0.1, 1000.0)
+        .in_range(0.1, 1000.0)
         .means("The opening in the words of photographers, in place of `aperture_mm`: `focal_length_mm` over this, both needed. Where both are given they must agree within 0.1 %.")
         .control("F-stop", log(1.4, 22.0), "The focal length over the diameter of the opening: 1.4 to 2.8 blurs all but what is in focus, 11 to 22 keeps most of it sharp.");
 }

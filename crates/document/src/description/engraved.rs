@@ -22,7 +22,7 @@ pub struct Engraved {
     pub line: Line,
     /// How wide a line is. 0: one scratch, which shows where it runs across the light. Wider: filled with short scratches in all directions, as a
     /// marking laser leaves them, which shine from all sides.
-    #[key(unit("m").number(0.0).within(0.0, 1.0).omitted()
+    #[key(unit("m").number(0.0).in_range(0.0, 1.0).omitted()
         .control("Line", linear(0.0, 0.02).sized(), "How wide a line is: filled with short scratches in all directions, so that it is seen from everywhere. 0: one scratch of the width below, which shows where it runs across the light."))]
     pub line_m: f64,
     /// See [`Laid::seed`].
@@ -45,7 +45,7 @@ pub enum Line {
     Curve {
         /// What the curve goes through, on or near the surface, in the object's own frame. A point farther from the object than the object is large
         /// is refused.
-        #[key(CURVE_POINTS_M: unit("m").within(-1000.0, 1000.0).range_words("2 to 4096 points, ±1000 each; 3 or more with `closed`")
+        #[key(CURVE_POINTS_M: unit("m").in_range(-1000.0, 1000.0).range_words("2 to 4096 points, ±1000 each; 3 or more with `closed`")
             .control("Point", linear(-1.0, 1.0).sized(), "A point that the curve goes through, in the object's own frame. It is moved onto the surface."))]
         points_m: Vec<[f64; 3]>,
         /// The curve comes back to its first point.
@@ -63,7 +63,7 @@ pub enum Line {
             .control("Height", log(2e-3, 0.5).sized(), "The height of capitals. In small letters the lines bend quickly, so that they glitter instead of drawing streaks."))]
         height_m: f64,
         /// Where its middle is, on or near the surface.
-        #[key(MIDDLE_M: unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).within(-1000.0, 1000.0)
+        #[key(MIDDLE_M: unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).in_range(-1000.0, 1000.0)
             .control("Middle", linear(-1.0, 1.0).sized(), "Where its middle is, in the object's own frame. It is moved onto the surface."))]
         center_m: [f64; 3],
         /// The way from its left to its right, laid flat on the surface.

@@ -9,7 +9,7 @@ use toml::de::DeValue;
 use super::distribution::Distribution;
 use super::keyed::Keyed;
 use super::place::{MIDDLE, RADII, TILE};
-use super::ranges::{Check, check_radii, within};
+use super::ranges::{Check, check_radii, check_range};
 use super::scratches::{Around, Pattern};
 use super::table::{Read, Table, Value};
 use super::values::named;
@@ -33,7 +33,7 @@ pub struct Grating {
     #[flat]
     pub pattern: GroovePattern,
     /// From one groove to the next: how far apart the orders are. 1.6 is a compact disc, 0.74 a DVD, 30 turned steel.
-    #[key(unit("µm").within(0.3, 50.0)
+    #[key(unit("µm").in_range(0.3, 50.0)
         .control("Pitch", log(0.4, 50.0), "From one groove to the next. Fine rows throw wide rainbows far out, coarse ones narrow rainbows close to the highlight. Disc 1.6, DVD 0.74, turned steel 30."))]
     pub pitch_um: f64,
     /// Width of each groove: how bright the further orders are.
@@ -42,13 +42,13 @@ pub struct Grating {
     #[read(width_um)]
     pub width_um: f64,
     /// Depth: how much light goes into orders, and which colours. Normal; the spread is a share of the mean.
-    #[key(unit("nm").number(120.0).within(0.0, DEPTH_MAX_NM).range_words("mean 0 to 2000, spread 0 to 1")
+    #[key(unit("nm").number(120.0).in_range(0.0, DEPTH_MAX_NM).range_words("mean 0 to 2000, spread 0 to 1")
         .control("Depth", linear(20.0, 600.0), "Picks the overall tint, also close to the highlight: each depth favours some wavelengths and cancels others. Very shallow scratches are faint and bluish. Seen or lit aslant they act shallower, so tints shift as things turn.")
         .second("Depth spread", linear(0.0, 0.5), Bounds::Within(0.0, 1.0), "", "How much the depths of grooves differ, as a share of the mean. It weakens the rainbows and adds a white sheen that single grooves send."))]
     pub depth_nm: Distribution,
     /// Standard deviation of how far a groove is off its place. A tenth of the pitch leaves the first order two thirds of its light; a quarter turns
     /// rows into so many single scratches.
-    #[key(unit("µm").number(0.0).within(0.0, 50.0).range_words("0 to the pitch")
+    #[key(unit("µm").number(0.0).in_range(0.0, 50.0).range_words("0 to the pitch")
         .control("Displacement", linear(0.0, 5.0), "How far grooves are off their places. A tenth of the pitch keeps two thirds of the first rainbow; at a quarter all grooves shine for themselves."))]
     pub jitter_um: f64,
     /// How bright the orders of a pitch below 4 µm are. `"rigorous"` solves Maxwell's equations in the grooves for both polarisations, by the
@@ -62,7 +62,7 @@ pub struct Grating {
         .control("Seed", linear(0.0, 1000.0), "Another number lays other scratches of the same kind, or puts the grooves of a grating in other places, as seen from nearby. Layers with different numbers do not repeat one another."))]
     pub seed: u64,
     /// The share of the surface that the grooves cover.
-    #[key(number(1.0).within(0.0, 1.0)
+    #[key(number(1.0).in_range(0.0, 1.0)
         .control("Coverage", linear(0.0, 1.0), "The share of the surface that the grooves cover. The rest mirrors as the material does."))]
     pub coverage: f64,
     /// A picture whose values, from 0 (black) to 1 (white), are factors on the coverage: a motif in foil. From afar it is its mean over a pixel.
@@ -95,7 +95,7 @@ pub enum GroovePattern {
         #[key(= Pattern::DIRECTION)]
         direction: [f64; 3],
         /// Standard deviation of a groove's angle to the pattern: streaks become fans.
-        #[key(unit("°").number(0.0).within(0.0, 90.0)
+        #[key(unit("°").number(0.0).in_range(0.0, 90.0)
             .control("Angles", linear(0.0, 10.0), "How far grooves stray from the pattern's direction. 0 gives lines of light with hard edges; a degree or more makes soft fans of them."))]
         jitter_deg: f64,
     },
@@ -112,7 +112,7 @@ pub enum GroovePattern {
         #[flat(AROUND)]
         around: Around,
         /// One over the radius of the arcs; its sign is the sense of the spiral.
-        #[key(unit("1/m").number(20.0).within(-1e4, 1e4)
+        #[key(unit("1/m").number(20.0).in_range(-1e4, 1e4)
             .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once."))]
         curvature_per_m: f64,
     },
@@ -185,7 +185,7 @@ named! { UvAxis {
 
 impl GroovePattern {
     /// The axis, if it has one.
-    pub fn around(&self) -> Option<&Around> {
+    pub fn axis(&self) -> Option<&Around> {
         match self {
             Self::Circular(around)
             | Self::Radial(around)
@@ -223,8 +223,9 @@ impl Grating {
 
     /// Refuses grooves wider than their pitch, and keys without what they belong to.
     fn check_companions(&self, key: &str) -> Check {
-        let up_to_the_pitch =
-            |name: &str, value: f64| within(&format!("{key}.{name}"), value, 0.0..=self.pitch_um);
+        let up_to_the_pitch = |name: &str, value: f64| {
+            check_range(&format!("{key}.{name}"), value, 0.0..=self.pitch_um)
+        };
         up_to_the_pitch(Self::WIDTH_UM.name, self.width_um)?;
         up_to_the_pitch(Self::JITTER_UM.name, self.jitter_um)?;
         if self.tile_m.is_some() && self.mask.is_none() {

@@ -24,7 +24,7 @@ pub enum LightKind {
     #[kind("sphere", after = ROUND)]
     Sphere {
         /// Its middle.
-        #[key(unit("m").within(-1000.0, 1000.0)
+        #[key(unit("m").in_range(-1000.0, 1000.0)
             .control("Position", linear(-5.0, 5.0).sized(), "Where the light hangs. Around its highlight those scratches light up that run crosswise to the way there."))]
         center_m: [f64; 3],
         /// Its radius.
@@ -62,7 +62,7 @@ pub enum LightKind {
             .control("Height", log(2e-3, 1.0).sized(), "From lower to upper edge. Long lights fill more scratches with colour."))]
         height_m: f64,
         /// Turns it about its axis, counter-clockwise as seen from the target.
-        #[key(unit("°").number(0.0).within(-360.0, 360.0).omitted()
+        #[key(unit("°").number(0.0).in_range(-360.0, 360.0).omitted()
             .control("Rotation", linear(-180.0, 180.0), "Turns the light about its axis, counter-clockwise as seen from its target."))]
         rotation_deg: f64,
         /// As of a disk.
@@ -72,7 +72,7 @@ pub enum LightKind {
     #[kind("polygon", after = FLAT)]
     Polygon {
         /// Its corners, in one plane and without crossing edges, convex or not. It shines to the side that sees them counter-clockwise.
-        #[key(unit("m").within(-1000.0, 1000.0).range_words("3 to 4096 points, ±1000 each")
+        #[key(unit("m").in_range(-1000.0, 1000.0).range_words("3 to 4096 points, ±1000 each")
             .control("Corner", linear(-5.0, 5.0).sized(), "A corner of the light. Its outline is mirrored in the surface, and scratches draw it out; long, thin shapes keep colours pure across their short side."))]
         vertices_m: Vec<[f64; 3]>,
         /// As of a disk.
@@ -82,7 +82,7 @@ pub enum LightKind {
     #[kind("tube", after = ROUND)]
     Tube {
         /// The ends of the line.
-        #[key(unit("m").within(-1000.0, 1000.0).range_words("two points, ±1000 each")
+        #[key(unit("m").in_range(-1000.0, 1000.0).range_words("two points, ±1000 each")
             .control("End", linear(-5.0, 5.0).sized(), "An end of the line within the tube. Scratches that run along the tube show colours across it."))]
         ends_m: [[f64; 3]; 2],
         /// As of a sphere.
@@ -96,7 +96,7 @@ pub enum LightKind {
             .control("Direction", linear(-1.0, 1.0), "The way that the light goes, from the sun to the scene. Its length does not matter."))]
         direction: [f64; 3],
         /// The angle that it spans, across; the default is that of the sun. A wider one sends as much.
-        #[key(unit("°").number(SUN_DEG).within(0.01, 90.0)
+        #[key(unit("°").number(SUN_DEG).in_range(0.01, 90.0)
             .control("Angle", log(0.1, 10.0), "How wide it is as seen from the scene: the sun 0.53 degrees. A wider one blurs rainbows and the edges of shadows; the scene stays as bright."))]
         angle_deg: f64,
         /// What falls on a surface that faces it. 683 lux are 1 W m⁻². White paper under 3.14 has radiance 1.
@@ -203,7 +203,7 @@ impl LightKind {
     }
 
     /// Unit direction of the width of a light that faces a target, to the right as seen from there.
-    pub(super) fn across(&self) -> Option<DVec3> {
+    pub(super) fn width_direction(&self) -> Option<DVec3> {
         let (center_m, target_m, rotation_deg) = match self {
             Self::Disk {
                 center_m, target_m, ..

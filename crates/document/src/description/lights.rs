@@ -39,11 +39,11 @@ pub struct Light {
     #[of_kinds]
     pub radiance: f64,
     /// The radiance, or the irradiance of a sun, is multiplied by 2^`exposure_ev`.
-    #[key(unit("stops").number(0.0).within(-64.0, 64.0).omitted()
+    #[key(unit("stops").number(0.0).in_range(-64.0, 64.0).omitted()
         .control("Stops", linear(-8.0, 8.0), "Each stop doubles the radiance: for balancing lights against one another."))]
     pub exposure_ev: f64,
     /// The colour of a black body: 2700 a warm bulb, 5600 a flash, 6500 daylight. The luminance stays; `color` is a filter before it.
-    #[key(unit("K").none().within(1000.0, 40_000.0)
+    #[key(unit("K").none().in_range(1000.0, 40_000.0)
         .control("Temperature", linear(1800.0, 10_000.0), "Colour of a glowing body: 2700 K for a warm bulb, 5600 K for a flash, 6500 K for daylight. Brightness stays."))]
     pub temperature_k: Option<f64>,
     /// Factor on the radiance; white has the spectrum of daylight (D65).
@@ -57,7 +57,7 @@ pub struct Light {
     pub cone: Option<Cone>,
     /// Of a disk or a rectangle: barn doors: the angles between the axis and flaps that end the light, to the left, to the right, above and below as
     /// seen from the target. 90 is open. Light falls off in the last tenth of each angle. Not with `two_sided`.
-    #[key(unit("°").none().within(0.0, 90.0).range_words("four, 0 to 90 each")
+    #[key(unit("°").none().in_range(0.0, 90.0).range_words("four, 0 to 90 each")
         .control("Barn door", linear(0.0, 90.0), "The angle between the light's axis and a flap that ends its light: left, right, above and below as seen from its target. 90 is open."))]
     pub barn_doors_deg: Option<[f64; 4]>,
     /// Of a rectangle: a picture on the light, upright as seen from the target, relative to the scene file: what a soft box looks like. Its linear
@@ -71,11 +71,11 @@ pub struct Light {
 #[derive(Clone, Debug, PartialEq, Keyed)]
 pub struct Cone {
     /// A spot: the angle of its cone from rim to rim; no light outside. Flat lights point along their own axis. Not with `two_sided`, not of a sun.
-    #[key(unit("°").none().within(0.1, 360.0)
+    #[key(unit("°").none().in_range(0.1, 360.0)
         .control("Cone", linear(5.0, 180.0), "The angle of the cone from rim to rim. Outside of it there is no light."))]
     pub cone_deg: f64,
     /// With `cone_deg`: the part of the way from rim to axis in which the light falls off, as KHR_lights_punctual has it.
-    #[key(number(0.1).within(0.0, 1.0)
+    #[key(number(0.1).in_range(0.0, 1.0)
         .control("Softness", linear(0.0, 1.0), "The part of the way from rim to axis in which the light falls off."))]
     pub cone_softness: f64,
     /// What the cone points to.
@@ -86,7 +86,7 @@ pub struct Cone {
 /// A point that a light faces.
 pub(super) const TARGET: Key = Key::new("target_m", Form::Numbers(3))
     .unit("m")
-    .within(-1000.0, 1000.0)
+    .in_range(-1000.0, 1000.0)
     .control(
         "Target",
         linear(-5.0, 5.0).sized(),
@@ -204,7 +204,7 @@ impl Light {
         if self.barn_doors_deg.is_none() {
             return Ok(());
         }
-        if self.kind.across().is_none() || self.kind.is_two_sided() {
+        if self.kind.width_direction().is_none() || self.kind.is_two_sided() {
             return Err(Error::new(
                 format!("{key}.barn_doors_deg"),
                 format!("found barn doors of a {}", self.kind.title()),
@@ -216,7 +216,7 @@ impl Light {
 
     fn doors(&self) -> Option<scene::Doors> {
         Some(scene::Doors {
-            across: self.kind.across()?,
+            across: self.kind.width_direction()?,
             // An open door ends nothing, and its number is one.
             tans: self
                 .barn_doors_deg?

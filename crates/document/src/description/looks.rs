@@ -16,7 +16,7 @@ pub struct Look {
     #[key(words("the scene's").range_words("the keys of [`[camera]`](#camera)"))]
     pub camera: Option<Camera>,
     /// In the place of the camera's exposure.
-    #[key(unit("stops").words("the camera's").within(-64.0, 64.0)
+    #[key(unit("stops").words("the camera's").in_range(-64.0, 64.0)
         .control("Exposure", linear(-8.0, 8.0), "Each step doubles or halves the brightness of this look."))]
     pub exposure_ev: Option<f64>,
     /// In the place of `[environment]`.
@@ -35,7 +35,7 @@ const LIGHT_WORDS: &str = "none; the scene's, where the look has no light at all
 
 impl Look {
     /// The camera and the light of a scene.
-    pub fn of(name: String, description: &Description) -> Self {
+    pub fn from_description(name: String, description: &Description) -> Self {
         let has_lights = description.is_lit();
         let studio = &description.studio;
         Self {

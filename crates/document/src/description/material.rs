@@ -25,7 +25,7 @@ pub struct Material {
     pub kind: MaterialKind,
     /// Perceptual roughness of the surface between the scratches, as in glTF (GGX's alpha is its square). Below 0.045 nothing changes any more, and a
     /// note says so.
-    #[key(number(0.1).within(0.0, 1.0)
+    #[key(number(0.1).in_range(0.0, 1.0)
         .control("Roughness", linear(0.0, 0.6), "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp."))]
     pub roughness: f64,
     /// Highlights that are drawn out one way, as on brushed metal.
@@ -38,7 +38,7 @@ pub struct Material {
     pub coat: Option<Coat>,
     /// Over what distance light interferes: standard deviation of the Gaussian coherence window. Nothing finer is seen, however small the pixels.
     /// Leave it alone but for macro views and studies.
-    #[key(unit("µm").number(20.0).within(1.0, 1000.0)
+    #[key(unit("µm").number(20.0).in_range(1.0, 1000.0)
         .control("Coherence", log(5.0, 100.0), "How far apart two points of the surface still act together on light. Larger: each scratch catches a lamp in a narrower band, so glints are thinner and crisper. Smaller: broader, softer glints. 20 suits most."))]
     pub coherence_um: f64,
     /// A clear plate with parallel faces over the metal: the polycarbonate of discs, the glass of a dial. Its outer face reflects with the metal's
@@ -55,11 +55,11 @@ pub struct Material {
 pub struct Clearcoat {
     /// The share of the surface that has a clear layer over it, as car paint has (`KHR_materials_clearcoat`): refractive index 1.5. Scratches lie in
     /// it; what is under it shines through.
-    #[key("clearcoat": none().within(0.0, 1.0)
+    #[key("clearcoat": none().in_range(0.0, 1.0)
         .control("Clear coat", linear(0.0, 1.0), "How much of the surface has a layer of lacquer. Scratches lie in it: it mirrors about 4 % without a colour, whatever shines from under it."))]
     weight: f64,
     /// As `roughness`, of the layer.
-    #[key("clearcoat_roughness": number(0.0).within(0.0, 1.0).range_words("0 to 1; with `clearcoat`")
+    #[key("clearcoat_roughness": number(0.0).in_range(0.0, 1.0).range_words("0 to 1; with `clearcoat`")
         .control("Coat roughness", linear(0.0, 0.6), "How far the highlight of the coat spreads. 0 to 0.05 for car paint, more where it is matt."))]
     roughness: f64,
 }
@@ -70,7 +70,7 @@ pub struct Clearcoat {
 pub struct Brushing {
     /// How far highlights are drawn out one way, as on brushed metal (`KHR_materials_anisotropy`): that way GGX's alpha goes from that of the
     /// roughness to 1 with the square of this. 0.4 to 0.7 for brushed pans and panels.
-    #[key("anisotropy": none().within(0.0, 1.0)
+    #[key("anisotropy": none().in_range(0.0, 1.0)
         .control("Anisotropy", linear(0.0, 1.0), "How far highlights are drawn out one way, as on brushed metal. 0: alike in all directions. 0.4 to 0.7 for brushed pans, lids and panels."))]
     strength: f64,
     /// Which way: across the brushing, counter-clockwise from where u of the texture coordinates rises. On what is turned about an axis 0 is around
@@ -85,15 +85,15 @@ pub struct Brushing {
 #[keyed(table, default)]
 pub struct Cover {
     /// Refractive index: 1.58 is the polycarbonate of discs, 1.52 window glass.
-    #[key(number(1.58).within(1.0, 4.0)
+    #[key(number(1.58).in_range(1.0, 4.0)
         .control("Cover's index", linear(1.0, 2.5), "How much the outer face of the plate mirrors, and how short waves are over the grooves under it. 1.58 is the polycarbonate of discs."))]
     pub ior: f64,
     /// How thick it is: how far light goes through its colour. 1.2 is a compact disc, 0.6 a DVD.
-    #[key(unit("mm").number(1.2).within(0.0, 100.0)
+    #[key(unit("mm").number(1.2).in_range(0.0, 100.0)
         .control("Cover's thickness", linear(0.0, 0.005), "How far light goes through the colour of the plate."))]
     pub thickness_mm: f64,
     /// The light that a millimetre lets through.
-    #[key(color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).within(0.0, 1.0)
+    #[key(color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).in_range(0.0, 1.0)
         .control("Cover's colour", linear(0.0, 1.0), "The light that a millimetre of the plate lets through. White: clear."))]
     pub color: [f64; 3],
 }
@@ -109,7 +109,7 @@ pub enum MaterialKind {
     #[kind("dielectric")]
     Dielectric {
         /// Refractive index of the clear coat. 1.5 is glass and most plastics and lacquers.
-        #[key(number(1.5).within(1.0, 4.0)
+        #[key(number(1.5).in_range(1.0, 4.0)
             .control("Refractive index", linear(1.0, 2.5), "How much the clear coat mirrors: 1.5 is lacquer or glass, about 4 %. Higher: brighter highlights and brighter scratches."))]
         ior: f64,
         /// Albedo of the diffuse body below the coat.
@@ -123,7 +123,7 @@ pub enum MaterialKind {
         #[key(color().like(&COLOR).is(Initial::Numbers(&[1.0, 1.0, 1.0])))]
         base_color: [f64; 3],
         /// From dielectric to metal.
-        #[key(number(1.0).within(0.0, 1.0)
+        #[key(number(1.0).in_range(0.0, 1.0)
             .control("Metallic", linear(0.0, 1.0), "0: a painted surface with weak, white reflections. 1: bare metal, whose reflections and scratches are bright and take its colour."))]
         metallic: f64,
         /// Factors on the reflection of its part that is no metal.
@@ -144,11 +144,11 @@ const OF_METALS: &[Entry] = &[Entry::Key(Material::COVER)];
 pub struct Reflections {
     /// As far as it is no metal: how much of its reflections it keeps, straight on and at grazing views (`KHR_materials_specular`). 1 is as of glass,
     /// 0 as of chalk.
-    #[key("specular": number(1.0).within(0.0, 1.0)
+    #[key("specular": number(1.0).in_range(0.0, 1.0)
         .control("Specular", linear(0.0, 1.0), "How much of its reflections what is no metal keeps. 1: those of plastic, refractive index 1.5. 0: none, as chalk."))]
     weight: f64,
     /// As far as it is no metal: the colour of its reflections straight on. At grazing views they stay white.
-    #[key("specular_color": color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).within(0.0, 1.0)
+    #[key("specular_color": color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).in_range(0.0, 1.0)
         .control("Specular colour", linear(0.0, 1.0), "The colour of what it reflects straight on, as far as it is no metal. White for all but cloth, feathers and other things of many layers."))]
     color: [f64; 3],
 }
@@ -171,7 +171,7 @@ pub enum MetalColor {
 
 const COLOR: Key = Key::new("base_color", Form::Color)
     .unit("linear RGB")
-    .within(0.0, 1.0)
+    .in_range(0.0, 1.0)
     .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show.");
 
 impl Material {

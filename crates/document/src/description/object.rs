@@ -37,7 +37,7 @@ pub struct Object {
         .control("Fitted size", log(0.05, 5.0).sized(), "The largest extent of the model, whatever it is in its file."))]
     pub fit_m: Option<f64>,
     /// The model stands as an animation of its file has it at this time. Without it, it is at rest.
-    #[key(unit("s").none().within(0.0, 1e6).range_words("0 to 1e6; with `mesh` only")
+    #[key(unit("s").none().in_range(0.0, 1e6).range_words("0 to 1e6; with `mesh` only")
         .control("Time (s)", linear(0.0, 10.0), "Seconds from the start of the model's animation. Its scratches are laid anew where it stands then."))]
     pub time_s: Option<f64>,
     /// Which animation: its name, or its number from 0 as text.
@@ -47,7 +47,7 @@ pub struct Object {
     #[key(none().range_words("a list; with `mesh` and without `material`"))]
     pub overrides: Vec<Override>,
     /// Moves the object, after scale and rotation.
-    #[key(unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).within(-1000.0, 1000.0)
+    #[key(unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).in_range(-1000.0, 1000.0)
         .control("Position", linear(-2.0, 2.0).sized(), "Moves the object with its scratches."))]
     pub translation_m: [f64; 3],
     /// Turns it about the world's x axis, then y, then z.
@@ -208,7 +208,7 @@ impl Object {
 
 impl Read for Object {
     fn read(value: &Value, key: &str) -> Result<Self, Error> {
-        let table = Table::of(Self::KEYS, value, key)?;
+        let table = Table::read_entries(Self::KEYS, value, key)?;
         let of_meshes = [
             Self::UP,
             Self::FIT_M,

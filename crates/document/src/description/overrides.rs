@@ -15,15 +15,15 @@ pub struct Override {
     #[key(range_words("name of a material of the file"))]
     pub material: String,
     /// Factor on the roughness map; without a map the roughness.
-    #[key(words("as in the file").within(0.0, 1.0)
+    #[key(words("as in the file").in_range(0.0, 1.0)
         .control("Roughness", linear(0.0, 0.6), "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp."))]
     pub roughness: Option<f64>,
     /// Factor on the metallic map.
-    #[key(words("as in the file; 1 with `metal`").within(0.0, 1.0)
+    #[key(words("as in the file; 1 with `metal`").in_range(0.0, 1.0)
         .control("Metallic", linear(0.0, 1.0), "0: a painted surface with weak, white reflections. 1: bare metal, whose reflections and scratches are bright and take its colour."))]
     pub metallic: Option<f64>,
     /// Factor on the base colour map.
-    #[key(color().words("as in the file").within(0.0, 1.0)
+    #[key(color().words("as in the file").in_range(0.0, 1.0)
         .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show."))]
     pub base_color: Option<[f64; 3]>,
     /// In the place of `base_color` and of the file's factors: the colour that the metal's measured refractive index gives, metallic.

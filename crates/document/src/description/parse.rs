@@ -21,7 +21,7 @@ impl Description {
     /// Only the form is checked here: keys, types, units. Ranges and references are checked by
     /// [`build`](crate::build()).
     pub fn from_toml(text: &str, name: &Path) -> Result<Self, Error> {
-        check_text(text.len()).map_err(|error| error.at(name, None))?;
+        check_text(text.len()).map_err(|error| error.with_position(name, None))?;
         let root = parse(text, name)?;
         let description = read::description(&root);
         let mut description = description.map_err(|error| error.in_scene_file(text, name))?;
@@ -51,7 +51,7 @@ impl Description {
     /// # Errors
     /// What is wrong with a table, by its line and key.
     pub fn parts_from_toml(text: &str, name: &Path) -> Result<Self, Error> {
-        check_text(text.len()).map_err(|error| error.at(name, None))?;
+        check_text(text.len()).map_err(|error| error.with_position(name, None))?;
         let root = parse(text, name)?;
         let read = || {
             let table = Table::open(&root, "", &PARTS)?;
@@ -171,7 +171,7 @@ fn rows_of<T>(
 where
     Vec<T>: Read,
 {
-    check_text(text.len()).map_err(|error| error.at(name, None))?;
+    check_text(text.len()).map_err(|error| error.with_position(name, None))?;
     let root = parse(text, name)?;
     let read = || {
         let all: Vec<T> = Table::open(&root, "", &[table])?.or(table, Vec::new())?;
@@ -213,7 +213,7 @@ fn parse<'a>(text: &'a str, name: &Path) -> Result<DeTable<'a>, Error> {
         } else {
             "must be valid TOML (https://toml.io)"
         };
-        Error::new("", found, right).at(name, line)
+        Error::new("", found, right).with_position(name, line)
     })?;
     Ok(root.into_inner())
 }

@@ -23,7 +23,7 @@ pub struct LayerPlaces {
     #[key(like(&TILE).range_words("1e-5 to 1000; with a picture"))]
     pub tile_m: Option<f64>,
     /// Wear comes first at convex edges: at 1 there are scratches at edges alone, at 0.9 a tenth as many on flat parts as at a sharp edge.
-    #[key(number(0.0).within(0.0, 1.0).omitted()
+    #[key(number(0.0).in_range(0.0, 1.0).omitted()
         .control("Edges", linear(0.0, 1.0), "Wear comes first where a surface stands out. At 1 there are scratches at convex edges alone, at 0 everywhere alike."))]
     pub edges: f64,
     /// How far from an edge there are scratches; in the world's metres.
@@ -52,13 +52,13 @@ pub(super) const TILE: Key = Key::new("tile_m", Form::Number)
 pub(super) const RADII: Key = Key::new("radius_m", Form::Numbers(2))
     .unit("m")
     .words("everywhere")
-    .within(0.0, LARGEST_M)
+    .in_range(0.0, LARGEST_M)
     .range_words("two numbers, the second greater");
 
 /// The middle that such distances are counted from.
 pub(super) const MIDDLE: Key = Key::new("center_m", Form::Numbers(3))
     .unit("m")
-    .within(-1000.0, 1000.0)
+    .in_range(-1000.0, 1000.0)
     .range_words("±1000 each; with `radius_m`")
     .control(
         "Middle",

@@ -129,25 +129,25 @@ impl Bounds {
         match self {
             Self::Any => Ok(()),
             Self::AtLeast0 => must(number >= 0.0, "must be 0 or greater"),
-            Self::Within(least, most) => within(key, number, least..=most),
+            Self::Within(least, most) => check_range(key, number, least..=most),
             Self::Above0(most) => {
                 must(number > 0.0, "must be greater than 0")?;
-                within(key, number, 0.0..=most)
+                check_range(key, number, 0.0..=most)
             }
             Self::Size => {
                 must(number > 0.0, "must be greater than 0")?;
-                within(key, number, SMALLEST_M..=LARGEST_M)
+                check_range(key, number, SMALLEST_M..=LARGEST_M)
             }
             Self::Factor(least, most) => must(
                 (least..=most).contains(&number.abs()),
                 &format!("its size must be between {least:e} and {most:e}"),
             ),
-            Self::Direction => within(key, number, -1e6..=1e6),
+            Self::Direction => check_range(key, number, -1e6..=1e6),
         }
     }
 }
 
-pub(super) fn within(key: &str, value: f64, range: RangeInclusive<f64>) -> Check {
+pub(super) fn check_range(key: &str, value: f64, range: RangeInclusive<f64>) -> Check {
     let (least, most) = (*range.start(), *range.end());
     match range.contains(&value) {
         true => Ok(()),

@@ -48,7 +48,7 @@ pub(super) fn description(root: &DeTable) -> Result<Description, Error> {
     }
     if let Some(DeValue::Array(rows)) = table.get("look").map(|value| value.get_ref()) {
         for (i, (row, look)) in rows.iter().zip(&mut description.looks).enumerate() {
-            let row = Table::of(Look::KEYS, row, "look")?;
+            let row = Table::read_entries(Look::KEYS, row, "look")?;
             if let (Some(value), Some(camera)) = (row.get("camera"), &mut look.camera) {
                 see_by_lens(camera, value, &format!("look[{i}].camera"), size_px)?;
             }
@@ -71,7 +71,7 @@ fn see_by_lens(
     key: &str,
     size_px: [u32; 2],
 ) -> Result<(), Error> {
-    let table = Table::of(Camera::KEYS, value, key)?;
+    let table = Table::read_entries(Camera::KEYS, value, key)?;
     if let Some(fov_y_deg) = lens::fov_y_deg(&table, size_px)? {
         camera.fov_y_deg = fov_y_deg;
     }

@@ -17,11 +17,11 @@ use crate::schema::section::keys;
 #[keyed(held, default, check = Render::check_bits)]
 pub struct Render {
     /// Width and height.
-    #[key(unit("pixels").is(Initial::Numbers(&[1280.0, 720.0])).within(1.0, 16_384.0)
+    #[key(unit("pixels").is(Initial::Numbers(&[1280.0, 720.0])).in_range(1.0, 16_384.0)
         .control("Size", linear(64.0, 4096.0), "Width and height of the picture. Larger pictures resolve single scratches; smaller ones blend them into sheen."))]
     pub size_px: [u32; 2],
     /// Standard deviation of the pixel's Gaussian filter: larger is softer.
-    #[key(unit("pixels").number(0.5).within(0.1, 10.0)
+    #[key(unit("pixels").number(0.5).in_range(0.1, 10.0)
         .control("Filter", linear(0.3, 2.0), "How softly pixels blend into one another. Small: crisp scratches that may look jagged. Large: smooth lines, less sparkle."))]
     pub filter_std_px: f64,
     /// The curve from radiance to the display.

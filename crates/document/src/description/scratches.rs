@@ -50,7 +50,7 @@ pub struct Scratches {
     /// Cross section of the grooves: `"rectangle"`, a flat floor, which shows the purest colours; `"v"`, two straight flanks, of a sharp point;
     /// `"round"`, of a grain or a stylus; `"shoulders"`, round with ridges beside it, which a blunt point pushes up in soft metal. Or the depths over
     /// `depth_nm` at equal steps from the middle to the rim, below 0 above the surface: `[1, 0.7, 0, -0.3, 0]`. Width is that of all of it.
-    #[key(text(PROFILES[0]).within(-1.0, 1.0).range_words("one of these names, or 2 to 64 numbers of ±1, not all 0").omitted())]
+    #[key(text(PROFILES[0]).in_range(-1.0, 1.0).range_words("one of these names, or 2 to 64 numbers of ±1, not all 0").omitted())]
     pub profile: Section,
     /// `pattern` and the keys that belong to it.
     #[flat]
@@ -351,7 +351,7 @@ pub enum Pattern {
 
 const CURVATURE_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
     .unit("1/m")
-    .within(-1e4, 1e4)
+    .in_range(-1e4, 1e4)
     .range_words("mean ±10000, spread 0 to 10000")
     .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once.")
     .second("Curvature spread", linear(0.0, 50.0).sized_by(-1), Bounds::Within(0.0, 1e4), "1/m", "How much bends differ, to both sides. Some is what makes wear look casual instead of ruled.");
@@ -365,11 +365,11 @@ pub struct Around {
         .control("Axis", linear(-1.0, 1.0), "The direction that the pattern turns about, in the object's own frame."))]
     pub axis: [f64; 3],
     /// A point on the axis.
-    #[key(unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).within(-1000.0, 1000.0)
+    #[key(unit("m").is(Initial::Numbers(&[0.0, 0.0, 0.0])).in_range(-1000.0, 1000.0)
         .control("Centre", linear(-1.0, 1.0).sized(), "The point that the pattern turns about, in the object's own frame. Fans of light meet there."))]
     pub center_m: [f64; 3],
     /// Standard deviation of a scratch's angle to the pattern. A few degrees look made by hand.
-    #[key(unit("°").number(0.0).within(0.0, 90.0)
+    #[key(unit("°").number(0.0).in_range(0.0, 90.0)
         .control("Jitter", linear(0.0, 30.0), "How far scratches stray from the pattern's direction. 0: fans and streaks with hard edges, as new. A few degrees soften them and look worn."))]
     pub jitter_deg: f64,
 }

@@ -110,12 +110,12 @@ pub enum Shape {
     #[kind("lathe")]
     Lathe {
         /// The profile that is turned.
-        #[key(unit("m").within(0.0, LARGEST_M).range_words("two or more points `[r, z]`, r from 0 to 1000")
+        #[key(unit("m").in_range(0.0, LARGEST_M).range_words("two or more points `[r, z]`, r from 0 to 1000")
             .control("Radius", linear(0.0, 1.0).sized(), "Distance of this point of the outline from the axis. Steps and bends of the outline show as rings of highlight.")
             .second("Height", linear(-1.0, 1.0).sized(), Bounds::Within(-LARGEST_M, LARGEST_M), "m", "Height of this point of the outline along the axis."))]
         profile_m: Vec<[f64; 2]>,
         /// Facets around.
-        #[key(number(256.0).within(3.0, 4096.0)
+        #[key(number(256.0).in_range(3.0, 4096.0)
             .control("Segments", linear(16.0, 512.0), "Facets around the axis. More: a rounder outline and smoother highlights, and a little more work."))]
         segments: u32,
         /// Rounds the profile where it bends by less than 40 degrees; sharper corners stay.
@@ -142,7 +142,7 @@ const HEIGHT: Key = Key::new("height_m", Form::Number).unit("m").size().control(
 
 const ROUNDING: Key = Key::new("rounding_m", Form::Number)
     .unit("m")
-    .within(0.0, LARGEST_M)
+    .in_range(0.0, LARGEST_M)
     .control("Rounding", linear(0.0, 0.5).sized(), "Radius of its edges. Rounded edges catch a line of light from almost everywhere; 0 leaves them sharp and dark.");
 
 impl Shape {
@@ -264,7 +264,7 @@ impl Read for Shape {
             return Err(Error::new(key, found, right));
         };
         let value = outer.get(choice.name).expect("the kind was found just now");
-        let table = Table::of(choice.entries, value, &outer.way(choice.name))?;
+        let table = Table::read_entries(choice.entries, value, &outer.way(choice.name))?;
         Self::read_keys(&table.with_kind(choice.name))
     }
 }

@@ -16,7 +16,7 @@ use crate::schema::{Entry, Form, Key};
 pub struct Stroke {
     /// Where the brush went, on or near the surface, in the object's own frame. One point is a dab. A point farther from the object than the object
     /// is large is refused.
-    #[key(unit("m").within(-1000.0, 1000.0).range_words("1 to 65536 points, ±1000 each"))]
+    #[key(unit("m").in_range(-1000.0, 1000.0).range_words("1 to 65536 points, ±1000 each"))]
     pub points_m: Vec<[f64; 3]>,
     /// Half of the brush's width; in the world's metres, whatever the object's `scale`.
     #[key(unit("m").size()
@@ -53,11 +53,11 @@ pub struct Paint {
     #[then(Paint::ERASE)]
     density_per_m: f64,
     /// Factor on the layer's widths; with `density_per_m` only.
-    #[key(number(1.0).within(0.01, 100.0).omitted()
+    #[key(number(1.0).in_range(0.01, 100.0).omitted()
         .control("Width factor", log(0.25, 4.0), "Factor on the widths of the layer for this stroke. Above 1: bolder, with denser rainbows. Below 1: finer, with wider ones."))]
     width: f64,
     /// Factor on the layer's depths; with `density_per_m` only.
-    #[key(number(1.0).within(0.01, 100.0).omitted()
+    #[key(number(1.0).in_range(0.01, 100.0).omitted()
         .control("Depth factor", log(0.25, 4.0), "Factor on the depths of the layer for this stroke. It shifts the tint of the stroke against the rest."))]
     depth: f64,
 }

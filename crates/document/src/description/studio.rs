@@ -43,15 +43,15 @@ pub struct Ground {
     #[key(flag(false).omitted())]
     pub hidden: bool,
     /// Albedo below its gloss.
-    #[key(color().is(Initial::Numbers(&[0.1, 0.1, 0.105])).within(0.0, 1.0).omitted()
+    #[key(color().is(Initial::Numbers(&[0.1, 0.1, 0.105])).in_range(0.0, 1.0).omitted()
         .control("Colour", linear(0.0, 1.0), "On metals it tints the mirror image and the scratches in it; on coated surfaces it is the body under the coat, which scratches leave as it is. Dark bodies let scratches show."))]
     pub color: [f64; 3],
     /// As that of a material.
-    #[key(number(0.55).within(0.0, 1.0).omitted()
+    #[key(number(0.55).in_range(0.0, 1.0).omitted()
         .control("Roughness", linear(0.0, 0.6), "How far the polished highlight spreads. 0.05 to 0.15 leaves dark room around it where scratches shine; rougher surfaces drown them. The scratches themselves stay as sharp."))]
     pub roughness: f64,
     /// Where it lies along the up axis.
-    #[key(unit("m").words("under the lowest point of all objects").within(-1000.0, 1000.0)
+    #[key(unit("m").words("under the lowest point of all objects").in_range(-1000.0, 1000.0)
         .control("Height", linear(-1.0, 1.0).sized(), "Where the floor lies along the vertical. Just under an object, its shadow touches it; deeper, it floats."))]
     pub height_m: Option<f64>,
     /// Whether the ground is seen by the shadows on it alone. Pictures are transparent then: where it is lit fully alpha is 0, where nothing lights

@@ -106,7 +106,7 @@ impl<'a> Table<'a> {
     }
 
     /// Opens a table of these keys.
-    pub(super) fn of(
+    pub(super) fn read_entries(
         entries: &'static [Entry],
         value: &'a Value<'a>,
         key: &str,

@@ -32,7 +32,7 @@ pub(crate) fn read(path: &FilePath) -> Option<Result<Description, Error>> {
             "" => format!("extensions.{EXTENSION}"),
             key => format!("extensions.{EXTENSION}.{key}"),
         };
-        Error::new(key, error.found(), error.right()).at(path, None)
+        Error::new(key, error.found(), error.right()).with_position(path, None)
     }))
 }
 

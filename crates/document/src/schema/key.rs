@@ -267,7 +267,7 @@ impl Key {
         Self { bounds, ..self }
     }
 
-    pub(crate) const fn within(self, least: f64, most: f64) -> Self {
+    pub(crate) const fn in_range(self, least: f64, most: f64) -> Self {
         self.bounds(Bounds::Within(least, most))
     }
 

@@ -54,7 +54,7 @@ impl Bounds {
         most: Vec3::NEG_INFINITY,
     };
 
-    fn with(self, other: Self) -> Self {
+    fn union(self, other: Self) -> Self {
         Self {
             least: self.least.min(other.least),
             most: self.most.max(other.most),
@@ -91,9 +91,9 @@ impl CutSide {
         count: 0.0,
     };
 
-    fn with(self, other: Self) -> Self {
+    fn union(self, other: Self) -> Self {
         Self {
-            bounds: self.bounds.with(other.bounds),
+            bounds: self.bounds.union(other.bounds),
             count: self.count + other.count,
         }
     }
@@ -118,7 +118,7 @@ impl Closest {
             .map(|(triangle, corners)| {
                 let corners = corners.map(|v| mesh.positions_m[v as usize]);
                 let point = |least: Vec3| Bounds { least, most: least };
-                let bounds = corners.map(point).into_iter().reduce(Bounds::with);
+                let bounds = corners.map(point).into_iter().reduce(Bounds::union);
                 Item {
                     triangle,
                     bounds: bounds.unwrap_or(Bounds::EMPTY),
@@ -198,7 +198,7 @@ impl Closest {
 /// order. The root comes first.
 fn grown(items: &mut [Item], first: usize, depth: usize) -> Vec<Node> {
     let bounds = items.iter().map(|item| item.bounds);
-    let bounds = bounds.fold(Bounds::EMPTY, Bounds::with);
+    let bounds = bounds.fold(Bounds::EMPTY, Bounds::union);
     if items.len() <= LEAF {
         return vec![Node {
             bounds,
@@ -252,18 +252,18 @@ fn split(items: &mut [Item], depth: usize) -> usize {
         let mut bins = [CutSide::EMPTY; BINS];
         for item in items.iter() {
             let bin = &mut bins[bin(item, axis)];
-            *bin = bin.with(CutSide {
+            *bin = bin.union(CutSide {
                 bounds: item.bounds,
                 count: 1.0,
             });
         }
         let mut right = [CutSide::EMPTY; BINS + 1];
         for cut in (0..BINS).rev() {
-            right[cut] = right[cut + 1].with(bins[cut]);
+            right[cut] = right[cut + 1].union(bins[cut]);
         }
         let mut left = CutSide::EMPTY;
         for cut in 1..BINS {
-            left = left.with(bins[cut - 1]);
+            left = left.union(bins[cut - 1]);
             let cost = left.cost() + right[cut].cost();
             let has_both = left.count > 0.0 && right[cut].count > 0.0;
             if has_both && best.is_none_or(|best| cost < best.0) {

@@ -99,7 +99,7 @@ impl Edges {
 
     /// Computes how far a place of a facet of this unit normal stands out, from 0 to 1. At a distance d from a straight edge that bends by
     /// an angle it is (1 - d² / reach²)^1.5 times the angle's share of a right one; on a ball whose radius is R, 1.5 reach / R.
-    pub(super) fn at(&self, point_m: DVec3, normal: DVec3) -> f64 {
+    pub(super) fn prominence(&self, point_m: DVec3, normal: DVec3) -> f64 {
         let [x, y, z] = cube(point_m, self.reach_m);
         let mut sum_m = 0.0;
         for (dx, dy, dz) in (0..27).map(|i| (i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)) {
@@ -157,13 +157,13 @@ mod tests {
                 let point_m = DVec3::new(0.013, 0.1 - distance_m, 0.1);
                 let off_m = (distance_m - within_m).hypot(within_m);
                 let expected = (1.0 - (off_m / 0.01).powi(2)).max(0.0).powf(1.5);
-                let found = edges.at(point_m, DVec3::Z);
+                let found = edges.prominence(point_m, DVec3::Z);
                 assert!(
                     (found - expected).abs() < 0.02,
                     "{rounding_m} {distance_m}: {found} {expected}"
                 );
             }
-            assert_eq!(edges.at(DVec3::new(0.0, 0.0, 0.1), DVec3::Z), 0.0);
+            assert_eq!(edges.prominence(DVec3::new(0.0, 0.0, 0.1), DVec3::Z), 0.0);
         }
     }
 
@@ -171,7 +171,7 @@ mod tests {
     fn a_ball_stands_out_by_its_curvature() {
         let edges = edges(&Shape::Sphere { radius_m: 0.1 }, 0.02);
         for direction in [DVec3::X, DVec3::new(0.48, 0.6, 0.64)] {
-            let found = edges.at(0.1 * direction, direction);
+            let found = edges.prominence(0.1 * direction, direction);
             // 1.5 x 0.02 / 0.1, and what the ball's bend takes off the reach.
             assert!((found - 0.3).abs() < 0.015, "{found}");
         }
@@ -186,8 +186,11 @@ mod tests {
             smooth: false,
         };
         let edges = edges(&shape, 0.01);
-        assert_eq!(edges.at(DVec3::new(0.049, 0.0, 0.0), DVec3::Z), 0.0);
-        assert_eq!(edges.at(DVec3::new(0.05, 0.0, 0.05), -DVec3::X), 0.0);
+        assert_eq!(edges.prominence(DVec3::new(0.049, 0.0, 0.0), DVec3::Z), 0.0);
+        assert_eq!(
+            edges.prominence(DVec3::new(0.05, 0.0, 0.05), -DVec3::X),
+            0.0
+        );
     }
 
     #[test]
@@ -198,7 +201,7 @@ mod tests {
             rounding_m: 0.0,
         };
         let edges = edges(&shape, 0.01);
-        let found = edges.at(DVec3::new(0.0, 0.095, 0.001), DVec3::Z);
+        let found = edges.prominence(DVec3::new(0.0, 0.095, 0.001), DVec3::Z);
         assert!((found - 0.75f64.powf(1.5)).abs() < 0.02, "{found}");
     }
 }

@@ -84,7 +84,7 @@ impl<'a> Engraving<'a> {
                     ground.refuse_far(*point, ground.diagonal_m, || format!("{key}[{i}]"))?;
                 }
                 vec![Outline {
-                    cubics: through(points_m, *closed, ground),
+                    cubics: smooth_curve(points_m, *closed, ground),
                     down: None,
                 }]
             }
@@ -120,8 +120,8 @@ impl<'a> Engraving<'a> {
                 lines_off += usize::from(parts.is_empty());
                 for (course, segments) in parts {
                     let mut length_m = 0.0;
-                    let lengths_m = segments.iter().map(|it| {
-                        length_m += f64::from(it.start_m.distance(it.end_m));
+                    let lengths_m = segments.iter().map(|segment| {
+                        length_m += f64::from(segment.start_m.distance(segment.end_m));
                         length_m
                     });
                     let ends_m: Vec<_> = lengths_m.collect();
@@ -356,7 +356,7 @@ impl<'a> Plate<'a> {
 
 /// The smooth curve through points. It gets further points on the surface where it is off it, so that it follows the surface between distant
 /// points.
-fn through(points_m: &[[f64; 3]], is_closed: bool, ground: &Ground) -> Vec<Cubic> {
+fn smooth_curve(points_m: &[[f64; 3]], is_closed: bool, ground: &Ground) -> Vec<Cubic> {
     let onto_surface = |point_m: DVec3| {
         let (spot, _) = ground.closest().find(point_m);
         let is_under = ground.is_under(&spot, point_m);

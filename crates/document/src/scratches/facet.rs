@@ -161,7 +161,7 @@ pub(super) fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) 
 
 impl Arc {
     /// The point after a length `s_m`, and the tangent there.
-    pub(super) fn at(&self, s_m: f64) -> (DVec3, DVec3) {
+    pub(super) fn point_and_tangent(&self, s_m: f64) -> (DVec3, DVec3) {
         let half_turn = self.curvature_per_m * s_m / 2.0;
         let (sin, cos) = libm::sincos(half_turn);
         let sinc = match half_turn.abs() < 1e-9 {
@@ -216,7 +216,7 @@ mod tests {
                 let stepped = (1..20_000)
                     .map(|k| f64::from(k) * 1e-4)
                     .take_while(|s| *s < half_turn)
-                    .find(|&s| facet.distance_m(arc.at(s).0) > 1e-12);
+                    .find(|&s| facet.distance_m(arc.point_and_tangent(s).0) > 1e-12);
                 match (facet.exit(&arc, None), stepped) {
                     (Some((s, _)), Some(stepped)) => {
                         assert!((0.0..1.01e-4).contains(&(stepped - s)), "{i} {curvature}")
@@ -238,8 +238,19 @@ mod tests {
         assert_eq!(edge, 0);
         // It meets the edge at the same angle on both sides, atan(4 / 3); the chord is 2 sin(angle) / curvature.
         assert!((s - 2.0 * (4.0f64 / 3.0).atan() / 10.0).abs() < 1e-12);
-        assert!(arc.at(s).0.abs_diff_eq(DVec3::new(0.24, 0.0, 0.0), 1e-12));
+        assert!(
+            arc.point_and_tangent(s)
+                .0
+                .abs_diff_eq(DVec3::new(0.24, 0.0, 0.0), 1e-12)
+        );
         let (ahead, miss) = arc.nearest(DVec3::new(0.31, 0.05, 0.0));
-        assert!((arc.at(ahead).0.distance(DVec3::new(0.31, 0.05, 0.0)) - miss).abs() < 1e-12);
+        assert!(
+            (arc.point_and_tangent(ahead)
+                .0
+                .distance(DVec3::new(0.31, 0.05, 0.0))
+                - miss)
+                .abs()
+                < 1e-12
+        );
     }
 }

@@ -101,7 +101,7 @@ impl Guide {
                 center_m,
                 bearing,
                 jitter_rad,
-            } => around(
+            } => direction_around_axis(
                 facet,
                 axis,
                 point_m - center_m,
@@ -146,7 +146,7 @@ fn turned(facet: &Facet, direction: DVec3, angle_rad: f64) -> DVec3 {
 }
 
 /// Direction around the axis. `arm_m` leads from a point of the axis to the point.
-fn around(
+fn direction_around_axis(
     facet: &Facet,
     axis: DVec3,
     arm_m: DVec3,

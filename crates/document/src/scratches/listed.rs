@@ -63,7 +63,7 @@ pub(crate) fn read(path: &FilePath, key: &str) -> Result<Vec<ListedRow>, Error> 
     })?;
     let text = String::from_utf8(text).map_err(|_| {
         let right = format!("must be a text with the header `{}`", columns().join(","));
-        Error::new("", "found bytes that are no UTF-8", right).at(path, None)
+        Error::new("", "found bytes that are no UTF-8", right).with_position(path, None)
     })?;
     parse(&text, path)
 }
@@ -79,14 +79,14 @@ fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
         .filter(|(_, line)| !line.is_empty());
     let header_is = || format!("must be the header `{}`", columns().join(","));
     let Some((first, header)) = lines.next() else {
-        return Err(Error::new("", "found an empty file", header_is()).at(path, Some(1)));
+        return Err(Error::new("", "found an empty file", header_is()).with_position(path, Some(1)));
     };
     let header: Vec<_> = header.split(',').map(bare).collect();
     let all: Vec<_> = columns().into_iter().chain(MORE_COLUMNS).collect();
     let is_known = [COUNT, COUNT + 1, all.len()].contains(&header.len());
     if !is_known || header != all[..header.len()] {
         let found = format!("found `{}`", shown(&header.join(",")));
-        return Err(Error::new("", found, header_is()).at(path, Some(first)));
+        return Err(Error::new("", found, header_is()).with_position(path, Some(first)));
     }
     let lines: Vec<_> = lines.collect();
     let rows: Vec<_> = (0u32..lines.len() as u32)
@@ -94,14 +94,14 @@ fn parse(text: &str, path: &Path) -> Result<Vec<ListedRow>, Error> {
         .zip(&lines)
         .map(|(number, &(line, row))| {
             let row = parse_row(line, row, header.len(), number);
-            row.map_err(|error| error.at(path, Some(line)))
+            row.map_err(|error| error.with_position(path, Some(line)))
         })
         .collect();
     // The first wrong one, whichever was read first.
     let rows: Vec<ListedRow> = rows.into_iter().collect::<Result<_, _>>()?;
     for [before, row] in rows.array_windows() {
         row.check_after(before)
-            .map_err(|error| error.at(path, Some(row.line)))?;
+            .map_err(|error| error.with_position(path, Some(row.line)))?;
     }
     Ok(rows)
 }
@@ -217,7 +217,7 @@ impl<'a> Listed<'a> {
         let first = first.chain([rows.len() as u32]).collect();
         Self::placed(loader, first, row, ground, |i, end, found, right| {
             let key = ["x0_m", "x1_m"][end];
-            Error::new(key, found, right).at(path, Some(rows[i].line))
+            Error::new(key, found, right).with_position(path, Some(rows[i].line))
         })
     }
 

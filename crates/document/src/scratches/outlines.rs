@@ -68,7 +68,8 @@ pub(super) fn drawing(
     let tree = tree.map_err(|why| match why {
         usvg::Error::ParsingFailed(why) => {
             let line = why.pos().row as usize;
-            Error::new("", format!("found no drawing ({why})"), RIGHT).at(path, Some(line))
+            Error::new("", format!("found no drawing ({why})"), RIGHT)
+                .with_position(path, Some(line))
         }
         why => wrong(format!("is no drawing ({why})")),
     })?;
@@ -94,8 +95,8 @@ pub(super) fn drawing(
 fn texts(bytes: &[u8]) -> usize {
     let text = std::str::from_utf8(bytes).unwrap_or_default();
     let document = usvg::roxmltree::Document::parse(text);
-    document.map_or(0, |it| {
-        let nodes = it.descendants();
+    document.map_or(0, |document| {
+        let nodes = document.descendants();
         nodes.filter(|node| node.has_tag_name("text")).count()
     })
 }

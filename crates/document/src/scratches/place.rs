@@ -106,7 +106,7 @@ impl<'a> GroundPlaces<'a> {
         });
         let of_edges = self.edges.as_ref().map_or(1.0, |edges| {
             let normal = Facet::new(&self.ground.mesh, middle.triangle).normal;
-            1.0 - self.edges_share + self.edges_share * edges.at(middle.point_m, normal)
+            1.0 - self.edges_share + self.edges_share * edges.prominence(middle.point_m, normal)
         });
         of_picture * of_edges
     }

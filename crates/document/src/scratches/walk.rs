@@ -228,7 +228,7 @@ impl<'a> Walker<'a> {
             if idle_steps > MOST_IDLE_STEPS {
                 break;
             }
-            let (point_m, direction) = arc.at(reach_m);
+            let (point_m, direction) = arc.point_and_tangent(reach_m);
             let Some((_, edge)) = exit else {
                 spot.point_m = point_m;
                 heading = Some(direction);
@@ -360,7 +360,7 @@ fn closes(
     }
     let (way_m, miss_m) = arc.nearest(start.point_m);
     let met = (-tolerance_m..=reach_m + tolerance_m).contains(&way_m) && miss_m < tolerance_m;
-    let is_along = || arc.at(way_m).1.dot(start_direction) > 0.999;
+    let is_along = || arc.point_and_tangent(way_m).1.dot(start_direction) > 0.999;
     (met && is_along()).then(|| way_m.max(0.0))
 }
 
@@ -374,7 +374,7 @@ fn push_chords(pieces: &mut Vec<StraightPiece>, triangle: u32, arc: &Arc, length
     };
     let mut start_m = arc.start_m;
     for i in 1..=chords {
-        let (end_m, _) = arc.at(length_m * i as f64 / chords as f64);
+        let (end_m, _) = arc.point_and_tangent(length_m * i as f64 / chords as f64);
         pieces.push(StraightPiece {
             start_m,
             end_m,

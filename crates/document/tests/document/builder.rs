@@ -316,10 +316,10 @@ fn one_changed_layer_is_laid_alone() {
         ),
         // Materials before the file's own shift its numbers, and nothing else.
         (
-            &|it| {
-                let mut another = it.materials[0].clone();
+            &|description| {
+                let mut another = description.materials[0].clone();
                 another.name = "another".to_owned();
-                it.materials.push(another);
+                description.materials.push(another);
             },
             [true, true, false],
             [true; 3],

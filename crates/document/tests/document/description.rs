@@ -376,7 +376,7 @@ fn everything_with_looks() -> Description {
     let all = Look {
         exposure_ev: Some(0.5),
         studio: Some(Studio::default()),
-        ..Look::of("all".to_owned(), &it)
+        ..Look::from_description("all".to_owned(), &it)
     };
     let none = Look {
         name: "none \"quoted\"".to_owned(),

@@ -679,8 +679,8 @@ fn strips_and_fans_are_lists_of_triangles() {
     let load = |mode: u32, indices: Option<&[u16]>| {
         let mut glb = Glb::default();
         let positions = glb.floats(&corners);
-        let indices = indices.map_or(String::new(), |it| {
-            format!(r#","indices":{}"#, glb.indices(it))
+        let indices = indices.map_or(String::new(), |indices| {
+            format!(r#","indices":{}"#, glb.indices(indices))
         });
         let mesh = format!(
             r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}}{indices},"mode":{mode}}}]}}"#
@@ -696,8 +696,8 @@ fn strips_and_fans_are_lists_of_triangles() {
     let sorted = |triangles: Vec<[DVec3; 3]>| {
         let mut all: Vec<_> = triangles
             .into_iter()
-            .map(|it| {
-                let mut corners = it.map(|corner| corner.to_array().map(f64::to_bits));
+            .map(|triangle| {
+                let mut corners = triangle.map(|corner| corner.to_array().map(f64::to_bits));
                 let least = (0..3).min_by_key(|i| corners[*i]).unwrap();
                 corners.rotate_left(least);
                 corners

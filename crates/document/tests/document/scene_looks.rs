@@ -51,7 +51,7 @@ fn a_look_of_a_scene_shows_it_again() {
     };
     let lit = with_looks("[studio]\nrotation_deg = 20\n[environment]\nbuiltin = \"window\"\n");
     for scene in [dark, lit] {
-        let look = Look::of("a".to_owned(), &scene);
+        let look = Look::from_description("a".to_owned(), &scene);
         let mut other = with_looks("[ground]\n");
         other.ground = scene.ground.clone();
         other.camera.position_m = [1.0, 2.0, 3.0];

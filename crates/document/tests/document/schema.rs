@@ -167,7 +167,7 @@ fn the_tables_of_the_documentation_are_those_of_the_schema() {
     text += rest;
     let wanted = SECTIONS
         .iter()
-        .map(|it| match (&it.keys()[..], it.choices) {
+        .map(|section| match (&section.keys()[..], section.choices) {
             ([], _) | (_, []) => 1,
             _ => 2,
         });

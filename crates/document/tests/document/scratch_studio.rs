@@ -15,8 +15,8 @@ fn lit(objects: &str) -> (Description, Scene) {
          [[material]]\nname = \"white\"\nkind = \"dielectric\"\nior = 1.5\nbase_color = [0.8, 0.8, 0.8]\n{objects}"
     );
     let mut description = Description::from_toml(&text, Path::new("a.toml")).unwrap();
-    let build = |it: &Description| {
-        hairline_document::build(it, Path::new("")).unwrap_or_else(|e| panic!("{e}"))
+    let build = |description: &Description| {
+        hairline_document::build(description, Path::new("")).unwrap_or_else(|e| panic!("{e}"))
     };
     description.light_for_scratches(&build(&description));
     description.check().unwrap();

@@ -18,7 +18,7 @@ fn scene() -> Description {
     Description::from_toml(&text, "scene.toml".as_ref()).unwrap()
 }
 
-fn around(middle: [f64; 3], half: [f64; 3]) -> (DVec3, DVec3) {
+fn box_corners(middle: [f64; 3], half: [f64; 3]) -> (DVec3, DVec3) {
     let (middle, half) = (DVec3::from(middle), DVec3::from(half));
     (middle - half, middle + half)
 }
@@ -26,15 +26,15 @@ fn around(middle: [f64; 3], half: [f64; 3]) -> (DVec3, DVec3) {
 #[test]
 fn the_ground_and_the_room_do_not_count() {
     let scene = scene();
-    let pan = around([0.0; 3], [0.1, 0.1, 0.01]);
-    let lid = around([0.3, 0.0, 0.0], [0.1, 0.1, 0.02]);
-    let table = around([0.0, 0.0, -0.02], [1.0, 1.0, 0.0]);
+    let pan = box_corners([0.0; 3], [0.1, 0.1, 0.01]);
+    let lid = box_corners([0.3, 0.0, 0.0], [0.1, 0.1, 0.02]);
+    let table = box_corners([0.0, 0.0, -0.02], [1.0, 1.0, 0.0]);
     assert_eq!(objects(&scene, &[pan, lid, table]), [0, 1]);
     // Around all, and around the camera.
-    let room = around([0.0; 3], [5.0; 3]);
+    let room = box_corners([0.0; 3], [5.0; 3]);
     assert_eq!(objects(&scene, &[pan, lid, room]), [0, 1]);
     // A flat thing as large as the others is one of them, and what is scratched counts whatever it is.
-    let leaf = around([0.0, 0.3, 0.0], [0.1, 0.1, 0.0]);
+    let leaf = box_corners([0.0, 0.3, 0.0], [0.1, 0.1, 0.0]);
     assert_eq!(objects(&scene, &[pan, lid, leaf]), [0, 1, 2]);
     assert_eq!(objects(&scene, &[table, lid, leaf]), [0, 1, 2]);
     assert_eq!(objects(&scene, &[pan]), [0]);

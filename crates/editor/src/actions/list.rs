@@ -19,7 +19,7 @@ pub(crate) trait ListedPart: Clone + 'static {
     /// Its list in a description, to change.
     fn list_mut(description: &mut Description) -> &mut Vec<Self>;
     /// The selection of the one at a place.
-    fn at(place: usize) -> Selection;
+    fn selection_at(place: usize) -> Selection;
     /// The place, if one of these is selected.
     fn place(selection: Selection) -> Option<usize>;
     /// Name of the part, if it has one.
@@ -62,7 +62,7 @@ pub(super) fn insert<P: ListedPart>(
         part.set_name(Some(name));
     }
     P::list_mut(description).insert(place, part);
-    P::at(place)
+    P::selection_at(place)
 }
 
 /// Removes a part from its list. If it was selected, the part in its place is selected then, or the last one.
@@ -76,7 +76,7 @@ pub(super) fn remove<P: ListedPart>(
     Ok(match P::place(selection) {
         Some(i) => {
             let left = P::list(description).len();
-            after_removal(i, index, left).map_or(Selection::None, P::at)
+            after_removal(i, index, left).map_or(Selection::None, P::selection_at)
         }
         None => selection,
     })
@@ -89,9 +89,9 @@ pub(super) fn remove_from_object<P: ListedPart>(
     selection: Selection,
 ) -> Result<Selection, ActionError> {
     let removed = get::<P>(description, index)?.clone();
-    let object = P::at(index).object(description);
+    let object = P::selection_at(index).object(description);
     let after = remove::<P>(description, index, selection)?;
-    if selection != P::at(index) {
+    if selection != P::selection_at(index) {
         return Ok(after);
     }
     let list = P::list(description);
@@ -100,7 +100,7 @@ pub(super) fn remove_from_object<P: ListedPart>(
     let next = (index..list.len()).find(is_beside);
     let next = next.or_else(|| (0..index).rev().find(is_beside));
     Ok(match next {
-        Some(i) => P::at(i),
+        Some(i) => P::selection_at(i),
         None => object.map_or(Selection::None, Selection::Object),
     })
 }
@@ -125,7 +125,7 @@ pub(super) fn shift<P: ListedPart>(
     };
     P::list_mut(description).swap(index, other);
     Ok(match P::place(selection) {
-        Some(i) => P::at(after_swap(i, index, other)),
+        Some(i) => P::selection_at(after_swap(i, index, other)),
         None => selection,
     })
 }
@@ -174,7 +174,7 @@ macro_rules! part {
             fn list_mut(description: &mut Description) -> &mut Vec<Self> {
                 &mut description.$list
             }
-            fn at(place: usize) -> Selection {
+            fn selection_at(place: usize) -> Selection {
                 Selection::$selection(place)
             }
             fn place(selection: Selection) -> Option<usize> {

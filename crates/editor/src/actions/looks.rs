@@ -8,7 +8,7 @@ use crate::Selection;
 
 /// Keeps how the scene looks from `camera`, as a new look.
 pub fn keep(description: &mut Description, camera: Camera) -> Selection {
-    let look = of("Look 1".to_owned(), description, camera);
+    let look = new_look("Look 1".to_owned(), description, camera);
     list::insert(description, description.looks.len(), look)
 }
 
@@ -22,14 +22,14 @@ pub fn set(
     camera: Camera,
 ) -> Result<Selection, ActionError> {
     let name = list::get::<Look>(description, index)?.name.clone();
-    description.looks[index] = of(name, description, camera);
+    description.looks[index] = new_look(name, description, camera);
     Ok(Selection::Look(index))
 }
 
-fn of(name: String, description: &Description, camera: Camera) -> Look {
+fn new_look(name: String, description: &Description, camera: Camera) -> Look {
     Look {
         camera: Some(camera),
-        ..Look::of(name, description)
+        ..Look::from_description(name, description)
     }
 }
 
@@ -52,7 +52,7 @@ fn keep_whole(description: &mut Description) {
         scene == *description
     };
     let is_kept = (description.looks.iter()).any(|look| look.is_whole() && gives(look));
-    let scene = Look::of("Scene".to_owned(), description);
+    let scene = Look::from_description("Scene".to_owned(), description);
     for look in &mut description.looks {
         look.complete(&scene);
     }

@@ -21,7 +21,7 @@ fn scene() -> Description {
         file = file.object(name, material, "disk = { radius_m = 1 }");
     }
     for (i, object) in ["a", "b", "a", "c", "a"].iter().enumerate() {
-        file = file.random(object, 1).with(&format!("seed = {i}"));
+        file = file.random(object, 1).with_lines(&format!("seed = {i}"));
     }
     for x_m in [0.0, 1.0, 2.0] {
         file = file.sphere([x_m, 0.0, 1.0], 0.1, 1.0);

@@ -26,11 +26,13 @@ fn scene() -> Description {
     SceneFile::seen_from([0.0, 0.0, 1.0])
         .mirror("m")
         .object("a", "m", disk)
-        .with("translation_m = [0.1, 0.2, 0.3]\nrotation_deg = [10, 20, 30]\nscale = [2, 1, 0.5]")
+        .with_lines(
+            "translation_m = [0.1, 0.2, 0.3]\nrotation_deg = [10, 20, 30]\nscale = [2, 1, 0.5]",
+        )
         .object("b", "m", disk)
         .random("a", 10)
         .random("b", 10)
-        .with("hidden = true")
+        .with_lines("hidden = true")
         .description()
 }
 

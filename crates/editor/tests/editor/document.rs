@@ -94,7 +94,10 @@ fn a_document_in_the_place_of_another_has_later_revisions() {
 #[test]
 fn a_drag_is_one_step_until_it_ends_or_another_begins() {
     let mut document = document();
-    let (here, there) = (DragKey::of("slider"), DragKey::of(("gizmo", 1)));
+    let (here, there) = (
+        DragKey::from_name("slider"),
+        DragKey::from_name(("gizmo", 1)),
+    );
     assert_ne!(here, there);
     let drag = |document: &mut Document, label: &str, key, by: f64| {
         document.drag(label, key, |d| d.camera.exposure_ev += by);

@@ -17,10 +17,10 @@ fn strips_are_cut_until_they_fit() {
         .fov_y_deg(25.0)
         .size_px([64, 64])
         .mirror("steel")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .object("plate", "steel", DISK)
         .random("plate", 20_000)
-        .with("length_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
+        .with_lines("length_m = 0.03\nwidth_um = 3.0\ndepth_nm = 200.0")
         .sphere([0.02, 0.3, 0.3], 0.02, 40.0)
         .scene();
     let options = RenderOptions {

@@ -18,9 +18,9 @@ fn plate() -> SceneFile {
         .fov_y_deg(28.0)
         .size_px([97, 64])
         .mirror("steel")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .object("plate", "steel", DISK)
-        .with("rotation_deg = [10.0, 20.0, 0.0]")
+        .with_lines("rotation_deg = [10.0, 20.0, 0.0]")
 }
 
 fn upload(renderer: &mut Renderer, scene: &Scene) -> Result<GpuScene, Error> {
@@ -198,7 +198,7 @@ fn near_objects_hide_far_ones_down_to_a_tenth_of_a_millimetre() {
             .size_px([32, 32])
             .mirror("m")
             .object("near", "m", &near)
-            .with(&format!("translation_m = [0.0, 0.0, {}]", 0.1 - gap_m))
+            .with_lines(&format!("translation_m = [0.0, 0.0, {}]", 0.1 - gap_m))
             .object("far", "m", "disk = { radius_m = 0.2 }")
             .scene();
         let image = render(gpu, &scene, &RenderOptions::default()).unwrap();

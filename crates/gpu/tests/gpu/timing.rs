@@ -15,7 +15,7 @@ fn scratched() -> SceneFile {
         .mirror("steel")
         .object("plate", "steel", DISK)
         .random("plate", 1000)
-        .with("length_m = 0.02\nwidth_um = 2.0\ndepth_nm = 200.0")
+        .with_lines("length_m = 0.02\nwidth_um = 2.0\ndepth_nm = 200.0")
         .sphere([0.0, 0.3, 0.3], 0.05, 9.0)
 }
 

@@ -14,7 +14,7 @@ fn description() -> Description {
         .object("a", "m", DISK)
         .object("b", "m", BALL);
     let layer = |file: SceneFile, object: &str, count: u32, seed: u32, width_um: f64| {
-        file.random(object, count).with(&format!(
+        file.random(object, count).with_lines(&format!(
             "seed = {seed}\nlength_m = {{ mean = 0.01, spread = 0.5 }}\nwidth_um = {{ mean = {width_um}, spread = 0.3 }}\n\
              depth_nm = 200.0\ncurvature_per_m = {{ mean = 0.0, spread = 4.0 }}"
         ))
@@ -218,7 +218,7 @@ fn straight_pieces_are_one_and_bent_ones_are_not() {
             .mirror("m")
             .object("a", "m", shape)
             .random("a", 500)
-            .with("seed = 1\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0")
+            .with_lines("seed = 1\nlength_m = 0.01\nwidth_um = 3.0\ndepth_nm = 200.0")
             .scene()
     };
     // Rings of 1 mm: a scratch of 10 mm is cut a dozen times.

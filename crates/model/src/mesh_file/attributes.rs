@@ -18,7 +18,7 @@ pub(super) struct Attributes<'a> {
 }
 
 impl<'a> Attributes<'a> {
-    pub(super) fn of(
+    pub(super) fn read(
         document: &Document,
         primitive: &'a Primitive<'a>,
         buffers: &'a Buffers,
@@ -26,7 +26,7 @@ impl<'a> Attributes<'a> {
         Ok(Self {
             primitive,
             buffers,
-            unpacked: Unpacked::of(document, primitive, buffers)?,
+            unpacked: Unpacked::unpack(document, primitive, buffers)?,
         })
     }
 

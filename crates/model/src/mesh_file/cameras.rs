@@ -33,19 +33,22 @@ impl FileCamera {
 }
 
 /// The camera of a name, its own or its node's, or of a number.
-pub(super) fn of<'p>(placed: &'p [PlacedNode<'p>], wanted: &str) -> Result<FileCamera, Flaw> {
+pub(super) fn find_camera<'p>(
+    placed: &'p [PlacedNode<'p>],
+    wanted: &str,
+) -> Result<FileCamera, Flaw> {
     let cameras = || {
         let of_node = |it: &'p PlacedNode<'p>| Some((it, it.node.camera()?));
         placed.iter().filter_map(of_node)
     };
-    let is_wanted = |(it, camera): &(&PlacedNode, gltf::Camera)| {
-        let names = [camera.name(), it.node.name()];
+    let is_wanted = |(placed, camera): &(&PlacedNode, gltf::Camera)| {
+        let names = [camera.name(), placed.node.name()];
         names.contains(&Some(wanted)) || wanted.parse() == Ok(camera.index())
     };
     let Some((it, camera)) = cameras().find(is_wanted) else {
         let known: Vec<_> = cameras()
-            .map(|(it, camera)| {
-                let name = camera.name().or(it.node.name());
+            .map(|(placed, camera)| {
+                let name = camera.name().or(placed.node.name());
                 name.map_or_else(|| camera.index().to_string(), shown)
             })
             .collect();

@@ -25,7 +25,7 @@ pub(super) struct Unpacked {
 
 impl Unpacked {
     /// Unpacks a primitive; none where it is not packed.
-    pub(super) fn of(
+    pub(super) fn unpack(
         document: &Document,
         primitive: &Primitive,
         buffers: &Buffers,

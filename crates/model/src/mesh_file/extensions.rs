@@ -44,7 +44,7 @@ pub(super) enum Scope {
 
 impl Scope {
     /// Scope of a member of this name.
-    pub(super) fn within(self, name: &str) -> Self {
+    pub(super) fn of_member(self, name: &str) -> Self {
         match name {
             "materials" | "textures" | "images" | "samplers" => Self::Look,
             _ => self,

@@ -13,7 +13,7 @@ use super::instances;
 use super::left_out::{self, LeftOut, UsedContents};
 use super::leniency::{drop_order_mark, drop_padding};
 use super::root::{self, OptionalElements};
-use super::source::{beside, is_data};
+use super::source::{is_data, resolve_uri};
 use crate::other_formats::OtherFormat;
 use crate::packed;
 use crate::reading::check_regular;
@@ -36,7 +36,7 @@ pub struct FileCounts {
 
 /// Counts the triangles and vertices that a glTF file places; `None` where it cannot be read.
 pub fn counts(path: &FilePath) -> Option<FileCounts> {
-    if let Some(format) = OtherFormat::of(path) {
+    if let Some(format) = OtherFormat::from_path(path) {
         return of_length(path, format);
     }
     let (root, text_bytes) = head(path)?;
@@ -109,7 +109,7 @@ impl FileCounts {
 
 /// The files that a glTF file names, each with its use; none where it cannot be read.
 pub fn names(path: &FilePath) -> Vec<(String, PathBuf)> {
-    if let Some(format) = OtherFormat::of(path) {
+    if let Some(format) = OtherFormat::from_path(path) {
         return format.names(path);
     }
     let Some((root, _)) = head(path) else {
@@ -118,7 +118,10 @@ pub fn names(path: &FilePath) -> Vec<(String, PathBuf)> {
     let base_dir = packed::file_of(path).folder();
     let named = |what: &'static str, i: usize, uri: &Option<String>| {
         let uri = uri.as_deref().filter(|uri| !is_data(uri))?;
-        Some((format!("{what} {i}"), beside(uri, &base_dir).to_path_buf()))
+        Some((
+            format!("{what} {i}"),
+            resolve_uri(uri, &base_dir).to_path_buf(),
+        ))
     };
     let buffers = (0..)
         .zip(&root.buffers)
@@ -147,7 +150,7 @@ pub fn camera_names(path: &FilePath) -> Vec<String> {
 /// Lists the contents of a glTF file that the picture does not have; empty where it cannot be read.
 pub fn left_out(path: &FilePath, wanted: UsedContents) -> Vec<LeftOut> {
     let root = text(path).and_then(|text| from_slice(&text).ok());
-    root.map_or_else(Vec::new, |root| left_out::of(&root, wanted))
+    root.map_or_else(Vec::new, |root| left_out::list_left_out(&root, wanted))
 }
 
 /// Reads the text, and returns its length too.
@@ -175,7 +178,7 @@ pub(super) fn alone(text: &[u8], name: &str) -> Option<Vec<u8>> {
 
 /// The text of a file with all that it holds; none of another format than glTF.
 pub(crate) fn whole_text(path: &FilePath) -> Option<Vec<u8>> {
-    if OtherFormat::of(path).is_some() {
+    if OtherFormat::from_path(path).is_some() {
         return None;
     }
     check_regular(path).ok()?;

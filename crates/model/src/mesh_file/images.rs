@@ -69,7 +69,7 @@ impl Images<'_> {
 
     fn add(&mut self, texels: Texels, channels: Channels, sampling: Sampling) -> usize {
         self.free_bytes -= texture_bytes(texels.size_px);
-        let made = texture::of(texels, channels, self.with_mips);
+        let made = texture::build_texture(texels, channels, self.with_mips);
         self.textures.push(Texture { sampling, ..made });
         self.textures.len() - 1
     }

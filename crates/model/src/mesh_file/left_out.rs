@@ -49,7 +49,7 @@ pub struct UsedContents {
 }
 
 /// Lists the contents that are left out of a file with this text.
-pub(super) fn of(root: &Value, wanted: UsedContents) -> Vec<LeftOut> {
+pub(super) fn list_left_out(root: &Value, wanted: UsedContents) -> Vec<LeftOut> {
     let mut found = LeftOutCounts::default();
     found.extensions(root, Scope::File, wanted);
     found.properties(root, wanted);
@@ -104,7 +104,7 @@ impl LeftOutCounts {
                             }
                             self.extensions(member, scope, wanted);
                         }
-                        _ => self.extensions(member, scope.within(name), wanted),
+                        _ => self.extensions(member, scope.of_member(name), wanted),
                     }
                 }
             }

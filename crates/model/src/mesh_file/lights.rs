@@ -45,7 +45,7 @@ pub enum PunctualKind {
 }
 
 /// Lights of the visible nodes.
-pub(super) fn of(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
+pub(super) fn read_lights(document: &gltf::Document) -> Result<Vec<Punctual>, Flaw> {
     let none = Vec::new();
     let table = document
         .extension_value(NAME)

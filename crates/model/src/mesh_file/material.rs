@@ -91,7 +91,7 @@ impl FileMaterials<'_> {
         let is_older = material.extension_value(spec_gloss::NAME).is_some();
         let [of_color, of_metal] = [pbr.base_color_texture(), pbr.metallic_roughness_texture()]
             .map(|texture| used(texture.filter(|_| !is_older)));
-        let ways = UvMappings::of(material);
+        let ways = UvMappings::from_material(material);
         let mut look = |texture: Option<(gltf::Texture, UvMapping)>, channels| match texture {
             Some((texture, way)) => {
                 let by_other_uvs = ways.is_second(way);
@@ -176,7 +176,7 @@ impl FileMaterials<'_> {
         material: &gltf::Material,
         converted: &mut Material,
     ) -> Result<(), Flaw> {
-        let factors = SpecGloss::of(extension);
+        let factors = SpecGloss::read(extension);
         let texture = |name: &str| {
             let index = extension.get(name)?.get("index")?.as_u64()?;
             self.document.textures().nth(usize::try_from(index).ok()?)
@@ -202,7 +202,8 @@ impl FileMaterials<'_> {
         let way = spec_gloss::TEXTURES
             .into_iter()
             .find_map(|name| uv::of_json(extension.get(name)?));
-        let by_other_uvs = way.is_some_and(|way| UvMappings::of(material).is_second(way));
+        let by_other_uvs =
+            way.is_some_and(|way| UvMappings::from_material(material).is_second(way));
         let images =
             self.images
                 .spec_gloss(&factors, diffuse.as_ref(), specular.as_ref(), by_other_uvs)?;
@@ -219,7 +220,7 @@ impl FileMaterials<'_> {
 
 /// Texture of a slot, and its mapping.
 fn used<'a>(info: Option<gltf::texture::Info<'a>>) -> Option<(gltf::Texture<'a>, UvMapping)> {
-    info.map(|info| (info.texture(), UvMapping::of(&info)))
+    info.map(|info| (info.texture(), UvMapping::from_texture(&info)))
 }
 
 /// KHR_materials_emissive_strength: a factor on the emission, which is bounded by 1 without it.

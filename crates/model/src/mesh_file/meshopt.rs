@@ -53,7 +53,7 @@ pub(super) fn unpack(view: &View, buffers: &[Option<Vec<u8>>]) -> Result<Vec<u8>
     let mut extensions = NAMES.iter().filter_map(|name| view.extension_value(name));
     let packing = extensions
         .next()
-        .and_then(|value| Packing::of(value, buffers));
+        .and_then(|value| Packing::parse(value, buffers));
     let packing = packing.ok_or_else(|| broken("does not say where its bytes are".to_owned()))?;
     let bytes = packing.count.checked_mul(packing.stride);
     if bytes != Some(view.length()) {
@@ -68,7 +68,7 @@ pub(super) fn unpack(view: &View, buffers: &[Option<Vec<u8>>]) -> Result<Vec<u8>
 }
 
 impl<'v> Packing<'v> {
-    fn of(value: &'v Value, buffers: &'v [Option<Vec<u8>>]) -> Option<Self> {
+    fn parse(value: &'v Value, buffers: &'v [Option<Vec<u8>>]) -> Option<Self> {
         let number = |name: &str| usize::try_from(value.get(name)?.as_u64()?).ok();
         let text = |name: &str| value.get(name).and_then(Value::as_str);
         let start = number("byteOffset").unwrap_or(0);

@@ -27,20 +27,22 @@ struct NodePose {
 
 impl Pose {
     pub(super) fn at_rest(document: &gltf::Document) -> Self {
-        let parts = document.nodes().map(|node| NodeTransform::of(&node).pose());
+        let parts = document
+            .nodes()
+            .map(|node| NodeTransform::from_node(&node).pose());
         Self(parts.collect())
     }
 
     /// The pose at a time of an animation, by its name or number, or of the first one. Before its first key and after its last one an
     /// animation stands still.
-    pub(super) fn at(
+    pub(super) fn sample(
         document: &gltf::Document,
         buffers: &Buffers,
         Moment { time_s, animation }: Moment,
     ) -> Result<Self, Flaw> {
         let mut parts: Vec<NodeTransform> = document
             .nodes()
-            .map(|node| NodeTransform::of(&node))
+            .map(|node| NodeTransform::from_node(&node))
             .collect();
         let animation = match animation {
             Some(wanted) => Some(named(document, wanted)?),
@@ -102,7 +104,7 @@ struct NodeTransform {
 }
 
 impl NodeTransform {
-    fn of(node: &gltf::Node) -> Self {
+    fn from_node(node: &gltf::Node) -> Self {
         let mut parts = Self {
             matrix: None,
             translation: DVec3::ZERO,
@@ -159,7 +161,7 @@ impl NodeTransform {
             Flaw::new(found, "must have as many values as times, all finite")
         })?;
         let is_turn = channel.target().property() == Property::Rotation;
-        let value = keys.at(time_s, is_turn);
+        let value = keys.sample(time_s, is_turn);
         match (channel.target().property(), value.as_slice()) {
             (Property::Translation, &[x, y, z]) => self.translation = DVec3::new(x, y, z),
             (Property::Scale, &[x, y, z]) => self.scale = DVec3::new(x, y, z),
@@ -209,7 +211,7 @@ impl<'a> Keys<'a> {
         })
     }
 
-    fn at(&self, time_s: f64, is_turn: bool) -> Vec<f64> {
+    fn sample(&self, time_s: f64, is_turn: bool) -> Vec<f64> {
         let later = self.times.partition_point(|&key| f64::from(key) <= time_s);
         let last = self.times.len() - 1;
         let (low, high) = (later.saturating_sub(1), later.min(last));
@@ -273,11 +275,11 @@ mod tests {
         let values = [0.0, 10.0, 30.0];
         let linear = Keys::new(&times, &values, Interpolation::Linear).unwrap();
         for (time_s, value) in [(0.0, 0.0), (1.0, 0.0), (1.5, 5.0), (3.0, 20.0), (9.0, 30.0)] {
-            assert_eq!(linear.at(time_s, false), [value], "{time_s}");
+            assert_eq!(linear.sample(time_s, false), [value], "{time_s}");
         }
         let step = Keys::new(&times, &values, Interpolation::Step).unwrap();
-        assert_eq!(step.at(3.9, false), [10.0]);
-        assert_eq!(step.at(4.0, false), [30.0]);
+        assert_eq!(step.sample(3.9, false), [10.0]);
+        assert_eq!(step.sample(4.0, false), [30.0]);
     }
 
     #[test]
@@ -289,7 +291,7 @@ mod tests {
         let values = [key(-1.0), key(2.0)].concat();
         let keys = Keys::new(&[-1.0, 2.0], &values, Interpolation::CubicSpline).unwrap();
         for t in [-1.0, -0.3, 0.5, 1.9_f32] {
-            let value = keys.at(t.into(), false)[0];
+            let value = keys.sample(t.into(), false)[0];
             assert!((value - f64::from(f(t))).abs() < 1e-6, "{t}: {value}");
         }
     }
@@ -300,7 +302,7 @@ mod tests {
         // Minus a quaternion is the same rotation.
         let values = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -quarter, -quarter];
         let keys = Keys::new(&[0.0, 1.0], &values, Interpolation::Linear).unwrap();
-        let half = unit(keys.at(0.5, true).try_into().unwrap());
+        let half = unit(keys.sample(0.5, true).try_into().unwrap());
         let expected = DQuat::from_rotation_z(std::f64::consts::FRAC_PI_4);
         assert!(half.dot(expected).abs() > 1.0 - 1e-9);
     }

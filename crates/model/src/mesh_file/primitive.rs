@@ -37,7 +37,7 @@ pub(super) fn read(
     ) {
         return Ok(None);
     }
-    let attributes = Attributes::of(document, primitive, buffers)?;
+    let attributes = Attributes::read(document, primitive, buffers)?;
     let Some(positions) = attributes.any::<3>(&Semantic::Positions)? else {
         return Err(Flaw::new(
             format!("its primitive {} has no positions", primitive.index()),
@@ -51,7 +51,7 @@ pub(super) fn read(
         Some(_) => attributes.matching::<4>(&Semantic::Tangents, count)?,
         None => None,
     };
-    let ways = UvMappings::of(&primitive.material());
+    let ways = UvMappings::from_material(&primitive.material());
     // A surface without images keeps the first set, which another material may use.
     let first = ways.first.unwrap_or(UvMapping::new(0, None));
     let [uvs, other_uvs] = [Some(first), ways.second].map(|way| match way {

@@ -40,7 +40,7 @@ impl<'a> Shapes<'a> {
         moment: Option<Moment>,
     ) -> Result<Self, Flaw> {
         let pose = match moment {
-            Some(moment) => Pose::at(document, buffers, moment)?,
+            Some(moment) => Pose::sample(document, buffers, moment)?,
             None => Pose::at_rest(document),
         };
         Ok(Self {
@@ -52,7 +52,7 @@ impl<'a> Shapes<'a> {
 
     /// A camera of the file at the time of the scene, in the file's frame.
     pub(super) fn camera(&self, wanted: &str) -> Result<FileCamera, Flaw> {
-        cameras::of(&self.placed, wanted)
+        cameras::find_camera(&self.placed, wanted)
     }
 
     /// Whether a node or a vertex may lie at least `distance_m` from the origin along an axis, by the bounds of positions in the
@@ -90,7 +90,7 @@ impl<'a> Shapes<'a> {
             let Some(mesh) = placed.node.mesh() else {
                 continue;
             };
-            let motion = Motion::of(placed, &self.placed, self.buffers)?;
+            let motion = Motion::read(placed, &self.placed, self.buffers)?;
             let places = match motion.file_from_rest {
                 // The joints place the mesh, wherever its node is.
                 Some(_) => vec![DMat4::IDENTITY],

@@ -19,7 +19,7 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    pub(super) fn of(
+    pub(super) fn read(
         node: &PlacedNode,
         all: &[PlacedNode],
         buffers: &Buffers,

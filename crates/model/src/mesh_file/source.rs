@@ -142,7 +142,7 @@ pub(crate) fn resource(
             right,
         ));
     }
-    let path = beside(uri, base_dir);
+    let path = resolve_uri(uri, base_dir);
     files.push(path.clone());
     reading::read(&path, FileKind::File, FILE_SHARE).map_err(|error| {
         let found = format!(
@@ -154,7 +154,7 @@ pub(crate) fn resource(
 }
 
 /// The file that a URI names. Where there is none: names that exporters left unescaped, and backslashes of Windows between folders.
-pub(super) fn beside(uri: &str, base_dir: &FilePath) -> FilePath {
+pub(super) fn resolve_uri(uri: &str, base_dir: &FilePath) -> FilePath {
     let name = percent_decoded(uri);
     let others = [uri, &name.replace('\\', "/")].map(|name| base_dir.join(name));
     let path = base_dir.join(name);

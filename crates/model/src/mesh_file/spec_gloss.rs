@@ -32,7 +32,7 @@ pub(super) struct Metal {
 }
 
 impl SpecGloss {
-    pub(super) fn of(extension: &Value) -> Self {
+    pub(super) fn read(extension: &Value) -> Self {
         let number = |value: Option<&Value>| {
             let number = value.and_then(Value::as_f64).unwrap_or(1.0);
             (number as f32).clamp(0.0, 1.0)

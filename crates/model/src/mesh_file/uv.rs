@@ -36,7 +36,7 @@ impl UvMapping {
     }
 
     /// Mapping of a use of a texture.
-    pub(super) fn of(texture: &gltf::texture::Info) -> Self {
+    pub(super) fn from_texture(texture: &gltf::texture::Info) -> Self {
         Self::new(texture.tex_coord(), texture.extension_value(NAME))
     }
 
@@ -61,7 +61,7 @@ pub(super) struct UvMappings {
 }
 
 impl UvMappings {
-    pub(super) fn of(material: &Material) -> Self {
+    pub(super) fn from_material(material: &Material) -> Self {
         let mut ways = Self::default();
         for way in all(material) {
             ways.add(way);
@@ -94,7 +94,7 @@ fn all(material: &Material) -> Vec<UvMapping> {
         pbr.metallic_roughness_texture(),
         material.emissive_texture(),
     ];
-    let rest = rest.iter().flatten().map(UvMapping::of);
+    let rest = rest.iter().flatten().map(UvMapping::from_texture);
     let occlusion = material.occlusion_texture();
     let rest = rest.chain(occlusion.as_ref().map(of_occlusion));
     let older = material.extension_value(spec_gloss::NAME);

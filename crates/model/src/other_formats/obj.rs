@@ -170,7 +170,7 @@ impl<'a> Library<'a> {
         };
         let (mut materials, numbers) = self.parsed(name, &text)?;
         let name = shown(&name.to_string_lossy());
-        for (line, key, rest) in statements::of(&text) {
+        for (line, key, rest) in statements::split_statements(&text) {
             let uri = image(rest).filter(|_| IMAGES.contains(&key));
             let flaw = uri.as_deref().and_then(|uri| self.lacks(uri, key));
             let Some(flaw) = flaw else {

@@ -15,7 +15,7 @@ pub(super) struct Found<'a> {
 }
 
 /// Lines with their numbers from 1, their first word and what follows it.
-pub(super) fn of(text: &str) -> impl Iterator<Item = (usize, &str, &str)> {
+pub(super) fn split_statements(text: &str) -> impl Iterator<Item = (usize, &str, &str)> {
     (1..).zip(text.lines()).map(|(line, statement)| {
         let statement = statement.trim();
         let (key, rest) = statement
@@ -35,11 +35,11 @@ const ELEMENTS: [(&str, &str); 3] = [("v", "vertex"), ("vt", "point"), ("vn", "n
 pub(super) fn check_obj(text: &str) -> Result<Found<'_>, String> {
     let element = |key: &str| ELEMENTS.iter().position(|(name, _)| *name == key);
     let mut all = [0; 3];
-    for index in of(text).filter_map(|(_, key, _)| element(key)) {
+    for index in split_statements(text).filter_map(|(_, key, _)| element(key)) {
         all[index] += 1;
     }
     let (mut before, mut found) = ([0; 3], Found::default());
-    for (line, key, rest) in of(text) {
+    for (line, key, rest) in split_statements(text) {
         if let Some(index) = element(key) {
             before[index] += 1;
             let least = if key == "vt" { 1 } else { 3 };
@@ -99,7 +99,7 @@ fn check_face(rest: &str, all: [usize; 3], before: [usize; 3]) -> Result<(), Str
 /// # Errors
 /// The file, the line, the key, what was found and what would be right.
 pub(super) fn check_mtl(name: &Path, text: &str) -> Result<(), Flaw> {
-    for (line, key, rest) in of(text) {
+    for (line, key, rest) in split_statements(text) {
         let right = match key {
             "Ka" | "Kd" | "Ks" | "Ke" if check_numbers(rest, 3).is_err() => "3 numbers",
             "Ns" | "Ni" | "d" if check_numbers(rest, 1).is_err() => "a number",

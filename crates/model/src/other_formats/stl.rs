@@ -59,7 +59,7 @@ pub(super) fn translated(bytes: &[u8]) -> Result<Translated, Flaw> {
 /// The first line of a text whose numbers are wrong.
 fn wrong_number(bytes: &[u8]) -> Option<String> {
     let text = str::from_utf8(bytes).ok()?;
-    statements::of(text).find_map(|(line, key, rest)| {
+    statements::split_statements(text).find_map(|(line, key, rest)| {
         let numbers = match key {
             "vertex" => rest,
             "facet" => rest.strip_prefix("normal")?,

@@ -18,9 +18,11 @@ fn scene() -> Scene {
         .metal("m", "gold")
         .object("o", "m", "plane = { size_m = [0.01, 0.01] }")
         .laid("o", "parallel", 400)
-        .with("direction = [1.0, 0.0, 0.0]\nlength_m = 0.01\nwidth_um = 2.0\ndepth_nm = 150.0")
+        .with_lines(
+            "direction = [1.0, 0.0, 0.0]\nlength_m = 0.01\nwidth_um = 2.0\ndepth_nm = 150.0",
+        )
         .polygon(&PANEL_M, 1.0)
-        .with("two_sided = true")
+        .with_lines("two_sided = true")
         .sphere([0.0, 0.3, 0.3], 0.05, 1.0)
         .scene()
 }

@@ -28,7 +28,7 @@ fn scene(shapes: &[(&str, u32, f64)]) -> Scene {
     let mut file = SceneFile::seen_from([0.0, -0.3, 0.3])
         .mirror("m0")
         .mirror("m1")
-        .with("coherence_um = 35.0");
+        .with_lines("coherence_um = 35.0");
     for (i, (shape, count, length_m)) in shapes.iter().enumerate() {
         let (object, material) = (format!("o{i}"), format!("m{}", i % 2));
         let more = format!(
@@ -38,7 +38,7 @@ fn scene(shapes: &[(&str, u32, f64)]) -> Scene {
         file = file
             .object(&object, &material, shape)
             .random(&object, *count)
-            .with(&more);
+            .with_lines(&more);
     }
     file.scene()
 }

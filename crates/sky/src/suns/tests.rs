@@ -102,7 +102,7 @@ fn two_suns_and_the_glare_of_one() {
         let first = if a < 0.02 { 1e5 } else { glare };
         sky(d) + first + if b < 0.03 { 2e4 } else { 0.0 }
     });
-    let all = Brightness::of(&map).total;
+    let all = Brightness::measure(&map).total;
     let suns = part(&mut map).suns;
     assert_eq!(suns.len(), 2, "{suns:?}");
     for (sun, (toward, radius_rad)) in suns.iter().zip([(toward[0], 0.02), (toward[1], 0.03)]) {
@@ -110,7 +110,7 @@ fn two_suns_and_the_glare_of_one() {
         assert!((sun.radius_rad / radius_rad - 1.0).abs() < 0.1, "{sun:?}");
     }
     // Nothing is lost.
-    let left = Brightness::of(&map).total + 1.75 * suns.iter().map(flux).sum::<f64>();
+    let left = Brightness::measure(&map).total + 1.75 * suns.iter().map(flux).sum::<f64>();
     assert!((left / all - 1.0).abs() < 1e-6, "{left} {all}");
 }
 

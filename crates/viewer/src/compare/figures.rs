@@ -33,21 +33,21 @@ pub struct LayerFigures {
 }
 
 impl Figures {
-    pub(super) fn of(picture: &Image, reference: &Image, is_sampled: &[bool]) -> Self {
+    pub(super) fn measure(picture: &Image, reference: &Image, is_sampled: &[bool]) -> Self {
         let noise = reference.noise.as_ref();
         let samples = noise.map_or(&[][..], |noise| &noise.samples);
         let sum: u64 = samples.iter().map(|&n| u64::from(n)).sum();
         Self {
             size_px: reference.size_px,
             samples: sum as f64 / samples.len().max(1) as f64,
-            beauty: LayerFigures::of(picture, reference, Layer::Beauty, is_sampled),
-            scratches: LayerFigures::of(picture, reference, Layer::Scratches, is_sampled),
+            beauty: LayerFigures::measure(picture, reference, Layer::Beauty, is_sampled),
+            scratches: LayerFigures::measure(picture, reference, Layer::Scratches, is_sampled),
         }
     }
 }
 
 impl LayerFigures {
-    fn of(picture: &Image, reference: &Image, layer: Layer, is_sampled: &[bool]) -> Self {
+    fn measure(picture: &Image, reference: &Image, layer: Layer, is_sampled: &[bool]) -> Self {
         let (values, right) = (picture.layer(layer), reference.layer(layer));
         let difference = Difference::between(&values, &right, Some(is_sampled));
         let variance = mean_variance(reference, layer);
@@ -88,7 +88,7 @@ mod tests {
         let mut noise = Noise::new([2, 1], 64);
         noise.samples = vec![128, 0];
         reference.noise = Some(noise);
-        let figures = Figures::of(&picture, &reference, &[true, false]);
+        let figures = Figures::measure(&picture, &reference, &[true, false]);
         assert!((figures.scratches.relative_rms - 0.1).abs() < 1e-6);
         assert_eq!(figures.scratches.relative_noise, None);
         assert_eq!(figures.samples, 64.0);
@@ -97,7 +97,7 @@ mod tests {
             noise.samples = vec![128, 128];
             noise.scratches = vec![[0.01; 3], [0.03; 3]];
         }
-        let figures = Figures::of(&picture, &reference, &[true, true]);
+        let figures = Figures::measure(&picture, &reference, &[true, true]);
         // The rms of the reference is the root of a half, and so is that of the mean variance 0.02 over it.
         let noise = figures.scratches.relative_noise.unwrap_or(0.0);
         assert!((noise - 0.2).abs() < 1e-6, "{noise}");

@@ -95,7 +95,7 @@ impl Compare {
                     });
                     match (&self.refused, shown) {
                         (Some(refused), _) => drop(ui.label(refused)),
-                        (None, Some(shown)) => self.about(ui, &shown),
+                        (None, Some(shown)) => self.show_comparison(ui, &shown),
                         (None, None) => {
                             ui.horizontal(|ui| {
                                 ui.add(Busy::new());
@@ -110,7 +110,7 @@ impl Compare {
             .inner
     }
 
-    fn about(&self, ui: &mut Ui, shown: &Comparison) {
+    fn show_comparison(&self, ui: &mut Ui, shown: &Comparison) {
         let [width, height] = shown.reference.size_px;
         let text = format!("{:.0} samples a pixel, {width} × {height}", shown.samples);
         ui.label(text).on_hover_text(

@@ -86,7 +86,7 @@ pub(super) fn refusal(built: &Built) -> Option<String> {
 pub(super) struct ReferenceTree(Option<(Weak<ScratchIndex>, Arc<SegmentTree<Groove>>)>);
 
 impl ReferenceTree {
-    fn of(&self, built: &Built) -> Option<Arc<SegmentTree<Groove>>> {
+    fn grooves(&self, built: &Built) -> Option<Arc<SegmentTree<Groove>>> {
         let (scratches, grooves) = self.0.as_ref()?;
         let is_same = scratches.ptr_eq(&Arc::downgrade(&built.scratches));
         is_same.then(|| Arc::clone(grooves))
@@ -171,7 +171,7 @@ pub(super) fn run(
     kept: &Mutex<ReferenceTree>,
 ) {
     let built = &wanted.built;
-    let earlier = lock(kept).of(built);
+    let earlier = lock(kept).grooves(built);
     let grooves = earlier.unwrap_or_else(|| Arc::new(groove_index::build(&built.scene)));
     lock(kept).0 = Some((Arc::downgrade(&built.scratches), Arc::clone(&grooves)));
     let (triangles, tables) = (Arc::clone(&built.triangles), Arc::clone(&built.tables));
@@ -286,7 +286,7 @@ impl Sampled {
             reference.rgb[i] = nearest(&coarse, size_px, i);
             errors.pixels[i] = UNKNOWN;
         }
-        let figures = Figures::of(&self.picture, &self.reference, &is_sampled);
+        let figures = Figures::measure(&self.picture, &self.reference, &is_sampled);
         Comparison {
             number,
             reference,

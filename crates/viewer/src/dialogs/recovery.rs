@@ -44,7 +44,7 @@ impl Recovery {
             .get_or_insert_with(|| Thumbnails::start(&self.pending, &ctx));
         let mut answer = None;
         ui.horizontal(|ui| {
-            match thumbnails.of(i, &ctx) {
+            match thumbnails.texture(i, &ctx) {
                 Some(texture) => ui.image(&texture),
                 None => ui.add_sized([160.0, 90.0], Busy::size(24.0)),
             };

@@ -50,7 +50,7 @@ impl Thumbnails {
     }
 
     /// Picture of an autosave, once it is there.
-    pub fn of(&mut self, i: usize, ctx: &Context) -> Option<TextureHandle> {
+    pub fn texture(&mut self, i: usize, ctx: &Context) -> Option<TextureHandle> {
         while let Ok((i, picture)) = self.made.try_recv() {
             let name = format!("thumbnail {i}");
             let texture = ctx.load_texture(name, picture, TextureOptions::LINEAR);

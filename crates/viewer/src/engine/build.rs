@@ -119,7 +119,7 @@ impl ViewBuilder {
         }) {
             return None;
         }
-        let (few, sketch) = Sketch::of(description)?;
+        let (few, sketch) = Sketch::from_description(description)?;
         let scenes = self.sketches.get_or_insert_with(|| self.scenes.clone());
         // Errors are reported for the whole scene.
         let scene = scenes.build(&Loader::default(), &few, base_dir).ok()?;
@@ -277,7 +277,7 @@ mod tests {
                 .metal("steel", "steel")
                 .object("plate", "steel", DISK)
                 .random("plate", 20)
-                .with(&format!("width_um = {width_um:?}"))
+                .with_lines(&format!("width_um = {width_um:?}"))
                 .description();
             let now = Instant::now();
             let built = builder.build(

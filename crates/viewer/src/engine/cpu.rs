@@ -119,7 +119,7 @@ impl StepRenderer for CpuStepRenderer {
         let scene = step.scene(order);
         let mut prepared = prepared(&order.built, &scene);
         if step.thin > 1 || order.built.sketch.is_some() {
-            let draft = crew.install(|| self.drafts.of(&order.built, step.thin));
+            let draft = crew.install(|| self.drafts.draft(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
         // What was there before it, shown until the step is done.
@@ -153,7 +153,7 @@ impl StepRenderer for CpuStepRenderer {
                     Backdrop::new(&last.image, step.size_px, &order.view.display)
                 });
                 show(RenderedStep {
-                    picture: backdrop.under(&bands.image, bands.next_row),
+                    picture: backdrop.composite(&bands.image, bands.next_row),
                     size_px: step.size_px,
                     samples: step.samples,
                     of_samples: None,

@@ -18,7 +18,7 @@ pub(super) struct Drafts {
 
 impl Drafts {
     /// One scratch of `thin`.
-    pub fn of(&mut self, built: &Built, thin: u32) -> Arc<Draft> {
+    pub fn draft(&mut self, built: &Built, thin: u32) -> Arc<Draft> {
         let scratches = Arc::downgrade(&built.scratches);
         if !self.scratches.ptr_eq(&scratches) {
             self.drafts.clear();

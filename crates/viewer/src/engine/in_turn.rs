@@ -74,7 +74,7 @@ impl InTurn {
         match &mut self.painter {
             Painter::Cpu(painter) => {
                 let (renderer, progress) = &mut **painter;
-                let pause = self.pause.before(progress, &order)?;
+                let pause = self.pause.time_to_wait(progress, &order)?;
                 if progress.is_at(&order) && shared.is_paused() {
                     return None;
                 }
@@ -116,7 +116,7 @@ struct Pause {
 
 impl Pause {
     /// Time to wait before an order is continued; none where nothing is left to be done.
-    fn before(&mut self, progress: &Progress, order: &Order) -> Option<Duration> {
+    fn time_to_wait(&mut self, progress: &Progress, order: &Order) -> Option<Duration> {
         let now = Instant::now();
         if !progress.is_at(order) {
             self.moved = Some(now);

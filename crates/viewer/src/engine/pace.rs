@@ -158,7 +158,11 @@ mod tests {
 
     const FULL_PX: [u32; 2] = [1280, 720];
 
-    fn after(kind: &'static Coarseness, pictures: usize, seconds_per_px: f64) -> ([u32; 2], u32) {
+    fn size_after_pictures(
+        kind: &'static Coarseness,
+        pictures: usize,
+        seconds_per_px: f64,
+    ) -> ([u32; 2], u32) {
         let segments = 100_000;
         let mut pace = Pace::new(kind);
         let (mut size_px, mut thin) = pace.moving(FULL_PX, segments, false);
@@ -172,12 +176,12 @@ mod tests {
 
     #[test]
     fn a_fast_machine_keeps_the_full_size_and_a_slow_one_keeps_the_time() {
-        assert_eq!(after(&WHOLE, 10, 1e-8), (FULL_PX, 1));
-        assert_eq!(after(&THINNED, 10, 1e-8), (FULL_PX, 1));
-        let (slow, _) = after(&WHOLE, 10, 2e-6);
+        assert_eq!(size_after_pictures(&WHOLE, 10, 1e-8), (FULL_PX, 1));
+        assert_eq!(size_after_pictures(&THINNED, 10, 1e-8), (FULL_PX, 1));
+        let (slow, _) = size_after_pictures(&WHOLE, 10, 2e-6);
         let seconds = 2e-6 * f64::from(slow[0] * slow[1]);
         assert!(seconds < 0.05 && slow[0] > 100, "{slow:?} takes {seconds}");
-        let (slow, thin) = after(&THINNED, 10, 1e-5);
+        let (slow, thin) = size_after_pictures(&THINNED, 10, 1e-5);
         assert!(thin > 1 && slow[0] > 100, "{slow:?}, a scratch of {thin}");
     }
 
@@ -185,7 +189,11 @@ mod tests {
     fn a_steady_cost_settles_on_one_size() {
         for kind in [&WHOLE, &THINNED] {
             for cost in [3e-8, 6e-8, 1e-7, 3e-7, 1e-6, 1e-5] {
-                assert_eq!(after(kind, 6, cost), after(kind, 7, cost), "{cost}");
+                assert_eq!(
+                    size_after_pictures(kind, 6, cost),
+                    size_after_pictures(kind, 7, cost),
+                    "{cost}"
+                );
             }
         }
     }

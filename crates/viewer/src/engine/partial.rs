@@ -22,11 +22,11 @@ impl Backdrop {
         let [from_x, from_y] = coarse.size_px.map(|side| side as usize);
         let texel = |x: usize, y: usize, c: usize| f32::from(rgb[3 * (y * from_x + x) + c]);
         let columns: Vec<_> = (0..size_px[0])
-            .map(|x| between(x, size_px[0], from_x))
+            .map(|x| linear_taps(x, size_px[0], from_x))
             .collect();
         let mut pixels = Vec::with_capacity(size_px[0] as usize * size_px[1] as usize);
         for y in 0..size_px[1] {
-            let (y0, y1, v) = between(y, size_px[1], from_y);
+            let (y0, y1, v) = linear_taps(y, size_px[1], from_y);
             for &(x0, x1, u) in &columns {
                 let [r, g, b] = [0, 1, 2].map(|c| {
                     let above = texel(x0, y0, c) * (1.0 - u) + texel(x1, y0, c) * u;
@@ -44,7 +44,7 @@ impl Backdrop {
     }
 
     /// The picture whose first `rows` are there.
-    pub fn under(&self, fine: &Image, rows: u32) -> Picture {
+    pub fn composite(&self, fine: &Image, rows: u32) -> Picture {
         let width = self.size_px[0];
         let done = (width * rows) as usize;
         let part = rows_of(fine, 0..done);
@@ -59,7 +59,7 @@ impl Backdrop {
 }
 
 /// The two texels of `from` next to pixel `at` of `to`, and the weight of the second.
-fn between(at: u32, to: u32, from: usize) -> (usize, usize, f32) {
+fn linear_taps(at: u32, to: u32, from: usize) -> (usize, usize, f32) {
     let place = (at as f32 + 0.5) * from as f32 / to as f32 - 0.5;
     let place = place.clamp(0.0, (from - 1) as f32);
     let first = place.floor() as usize;
@@ -82,7 +82,7 @@ mod tests {
         let mut fine = Image::new([5, 6]);
         fine.base.fill([0.6; 3]);
         let backdrop = Backdrop::new(&coarse, [5, 6], &display);
-        let Picture::Pixels(shown) = backdrop.under(&fine, 2) else {
+        let Picture::Pixels(shown) = backdrop.composite(&fine, 2) else {
             panic!("no pixels");
         };
         assert_eq!(shown.size, [5, 6]);

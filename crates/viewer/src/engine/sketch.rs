@@ -20,7 +20,7 @@ pub(crate) struct Sketch {
 
 impl Sketch {
     /// Description of a sketch of a whole scene; none where that would save little.
-    pub fn of(description: &Description) -> Option<(Description, Self)> {
+    pub fn from_description(description: &Description) -> Option<(Description, Self)> {
         let counts = description
             .scratches
             .iter()

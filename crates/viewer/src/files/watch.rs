@@ -70,7 +70,7 @@ struct Stamp {
 
 impl Stamp {
     /// Version of a file; none while there is no such file: one that is being replaced is away for a moment.
-    fn of(path: &Path) -> Option<Self> {
+    fn read(path: &Path) -> Option<Self> {
         let data = std::fs::metadata(path).ok()?;
         #[cfg(unix)]
         let number = std::os::unix::fs::MetadataExt::ino(&data);
@@ -96,7 +96,7 @@ struct Watched {
 
 impl Watched {
     fn new(path: PathBuf, of: PathBuf) -> Self {
-        let stamp = Stamp::of(&path);
+        let stamp = Stamp::read(&path);
         Self {
             path,
             of,
@@ -121,7 +121,7 @@ fn look(wanted: &Receiver<Vec<PathBuf>>, tell: &Sender<Change>, wake: impl Fn())
         }
         let mut names_may_differ = false;
         for one in &mut watched {
-            let now = Stamp::of(&one.path);
+            let now = Stamp::read(&one.path);
             if now.is_some() && now == one.last && now != one.told {
                 one.told = now;
                 names_may_differ |= Description::is_model(&one.path);

@@ -9,7 +9,7 @@ use hairline_image::tone_map::srgb_from_linear;
 use hairline_optics::metal::Metal;
 
 use super::{Gallery, Thumb};
-use crate::style::beside;
+use crate::style::tooltip_beside_menu;
 
 /// Side of a picture in a menu, points.
 pub(crate) const SIDE: f32 = 76.0;
@@ -42,7 +42,7 @@ pub(crate) fn cards<T: Copy>(
             }
         });
     for (card, hint) in shown {
-        beside(&card, grid.response.rect, hint);
+        tooltip_beside_menu(&card, grid.response.rect, hint);
     }
     chosen
 }

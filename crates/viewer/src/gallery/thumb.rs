@@ -62,7 +62,7 @@ impl StandIn {
     pub const ALL: [Self; 3] = [Self::Flat, Self::Round, Self::Tall];
 
     /// The stand-in for a box with these sides, `height` among them, in one unit.
-    pub fn of(sides: [f64; 3], height: f64) -> Self {
+    pub fn for_box(sides: [f64; 3], height: f64) -> Self {
         let [least, middle, most] = {
             let mut sorted = sides;
             sorted.sort_by(f64::total_cmp);
@@ -83,12 +83,12 @@ mod tests {
     #[test]
     fn boxes_have_the_stand_ins_of_what_is_in_them() {
         let plate = [0.2, 0.2, 0.02];
-        assert_eq!(StandIn::of(plate, 0.02), StandIn::Flat);
+        assert_eq!(StandIn::for_box(plate, 0.02), StandIn::Flat);
         // A mirror that stands.
-        assert_eq!(StandIn::of([0.2, 0.01, 0.4], 0.4), StandIn::Flat);
-        assert_eq!(StandIn::of([0.1, 0.1, 0.1], 0.1), StandIn::Round);
-        assert_eq!(StandIn::of([0.07, 0.07, 0.3], 0.3), StandIn::Tall);
+        assert_eq!(StandIn::for_box([0.2, 0.01, 0.4], 0.4), StandIn::Flat);
+        assert_eq!(StandIn::for_box([0.1, 0.1, 0.1], 0.1), StandIn::Round);
+        assert_eq!(StandIn::for_box([0.07, 0.07, 0.3], 0.3), StandIn::Tall);
         // A bottle that lies.
-        assert_eq!(StandIn::of([0.07, 0.3, 0.07], 0.07), StandIn::Round);
+        assert_eq!(StandIn::for_box([0.07, 0.3, 0.07], 0.07), StandIn::Round);
     }
 }

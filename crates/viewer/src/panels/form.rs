@@ -62,7 +62,7 @@ impl<'a> Form<'a> {
         Self {
             ui,
             diagonal_m,
-            scope: DragKey::of(scope),
+            scope: DragKey::from_name(scope),
             change: None,
             wanted: None,
         }
@@ -82,7 +82,7 @@ impl<'a> Form<'a> {
     fn note(&mut self, label: &str) {
         self.change = Some(Change {
             label: label.to_owned(),
-            key: DragKey::of((self.scope, label)),
+            key: DragKey::from_name((self.scope, label)),
         });
     }
 
@@ -187,7 +187,7 @@ impl<'a> Form<'a> {
     }
 
     /// A slider from 0 to 1. Without a value it is grey, above the reason.
-    pub fn between(
+    pub fn fraction_slider(
         &mut self,
         [label, tooltip]: [&'static str; 2],
         value: Result<&mut f64, &'static str>,

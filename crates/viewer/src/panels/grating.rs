@@ -52,7 +52,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.seed(&mut grating.seed);
     grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
     groove_pattern::rows(&mut form, &mut grating.pattern, index);
-    if grating.pattern.around().is_some() {
+    if grating.pattern.axis().is_some() {
         grating.center_m = None;
     }
     form.number(Grating::COVERAGE, &mut grating.coverage);
@@ -79,7 +79,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         begin,
     ) {
         false => grating.center_m = None,
-        true if grating.pattern.around().is_none() => {
+        true if grating.pattern.axis().is_none() => {
             let center_m = grating.center_m.get_or_insert_default();
             form.vector(Grating::CENTER_M, center_m);
         }

@@ -16,7 +16,7 @@ use super::form::Form;
 use super::layer_place;
 use crate::command::Command;
 use crate::parts;
-use crate::style::beside;
+use crate::style::tooltip_beside_menu;
 use crate::tools::Tool;
 use crate::workspace::{NO_PRESET, Workspace};
 
@@ -86,12 +86,12 @@ fn strength_row(form: &mut Form, layer: &mut Scratches, index: usize) {
             Layer::Brushed(_) => "nothing is drawn yet",
             _ => "there are no scratches: their number is 0",
         };
-        form.between(texts, Err(why));
+        form.fraction_slider(texts, Err(why));
         return;
     };
-    let mut wanted = slider.at();
-    form.between(texts, Ok(&mut wanted));
-    if wanted != slider.at() {
+    let mut wanted = slider.position();
+    form.fraction_slider(texts, Ok(&mut wanted));
+    if wanted != slider.position() {
         slider.go(wanted, layer);
     }
     let kept = KeptSlider {
@@ -240,7 +240,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
         ui.menu_button("Replace by a preset…", |ui| {
             for preset in LayerPreset::ALL {
                 let entry = ui.button(preset.name());
-                beside(&entry, entry.rect, preset.tooltip());
+                tooltip_beside_menu(&entry, entry.rect, preset.tooltip());
                 if entry.clicked() {
                     let made = preset.layer(layer.object.clone(), diagonal_m);
                     work.document.edit("Layer preset", |d| {

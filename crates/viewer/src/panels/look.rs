@@ -15,7 +15,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     };
     let mut look = before.clone();
     // What it keeps where a box is ticked.
-    let now = Look::of(look.name.clone(), &description);
+    let now = Look::from_description(look.name.clone(), &description);
     ui.heading("Look");
     let mut form = Form::new(ui, ("look", index), work.diagonal_m(None));
     let mut name = look.name.clone();

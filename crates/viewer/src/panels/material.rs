@@ -34,7 +34,7 @@ const KINDS: [(MaterialChoice, &str); 6] = [
 ];
 
 impl MaterialChoice {
-    fn of(kind: &MaterialKind) -> Self {
+    fn from_kind(kind: &MaterialKind) -> Self {
         match kind {
             MaterialKind::Metal(MetalColor::Measured(_)) => Self::Measured,
             MaterialKind::Metal(MetalColor::Own(_)) => Self::Own,
@@ -124,14 +124,14 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut form = Form::new(ui, ("material", index), work.diagonal_m(None));
     let mut name = material.name.clone();
     form.text(NAME, "What objects call it", &mut name);
-    let mut kind = MaterialChoice::of(&material.kind);
+    let mut kind = MaterialChoice::from_kind(&material.kind);
     form.choice(
         "Kind",
         "What the surface is made of",
         KINDS.map(|(kind, name)| (kind, name.to_owned())),
         &mut kind,
     );
-    if kind != MaterialChoice::of(&material.kind) {
+    if kind != MaterialChoice::from_kind(&material.kind) {
         material.kind = kind.begin();
     }
     match &mut material.kind {

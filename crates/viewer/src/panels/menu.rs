@@ -77,10 +77,14 @@ fn tools(work: &Workspace, is_comparing: bool) -> Vec<BarTool> {
         begins_section: true,
     };
     let mut tools: Vec<BarTool> = (Tool::ALL.into_iter().enumerate())
-        .map(|(i, it)| BarTool {
-            is_on: work.toolbox.tool == it,
+        .map(|(i, choice)| BarTool {
+            is_on: work.toolbox.tool == choice,
             begins_section: i == 0,
-            ..tool(Command::Pick(it), Command::Pick(it).label(), it.hint())
+            ..tool(
+                Command::Pick(choice),
+                Command::Pick(choice).label(),
+                choice.hint(),
+            )
         })
         .collect();
     let (undo, redo) = (work.document.undo_label(), work.document.redo_label());

@@ -54,7 +54,7 @@ pub(crate) fn develop(
             let share = f64::from(frame_px[i]) / f64::from(full_px[i].max(1));
             ((share * f64::from(image.size_px[i])).round() as u32).clamp(1, image.size_px[i])
         };
-        Histogram::of(image, &beauty, display, [scale(0), scale(1)])
+        Histogram::count(image, &beauty, display, [scale(0), scale(1)])
     });
     let (pixels, depths_m) = match wanted.shows {
         Shows::Beauty => (beauty, None),

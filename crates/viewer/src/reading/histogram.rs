@@ -28,7 +28,12 @@ pub struct Histogram {
 
 impl Histogram {
     /// Counts the middle `frame_px` pixels of an image that is displayed as `codes`, three bytes a pixel.
-    pub(super) fn of(image: &Image, codes: &[u8], display: &Display, frame_px: [u32; 2]) -> Self {
+    pub(super) fn count(
+        image: &Image,
+        codes: &[u8],
+        display: &Display,
+        frame_px: [u32; 2],
+    ) -> Self {
         let gain = display.exposure_ev.exp2() as f32 / MIDDLE_GREY;
         let mut bins = vec![[0; 4]; BINS];
         let [width, height] = image.size_px;
@@ -83,7 +88,7 @@ mod tests {
         image.base[7] = [0.36, 0.18, 0.0];
         let display = Display::default();
         let codes = png::quantize(&image.beauty(), &display);
-        let of = |frame_px, display: &Display| Histogram::of(&image, &codes, display, frame_px);
+        let of = |frame_px, display: &Display| Histogram::count(&image, &codes, display, frame_px);
         let all = of([4, 2], &display);
         assert_eq!(all.pixels, 8);
         let at = |stops: f32| ((stops - STOPS[0]) * BINS_PER_STOP) as usize;

@@ -59,7 +59,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
         }
     });
     let picked = work.measure.picked.as_ref();
-    let picked = picked.filter(|it| it.layer() == layer && it.of(built).is_some());
+    let picked = picked.filter(|it| it.layer() == layer && it.find(built).is_some());
     let picked = picked.map(PickedScratch::number);
     let mut area = ScrollArea::vertical().max_height(HEIGHT).auto_shrink(false);
     let height = ui

@@ -57,7 +57,7 @@ pub(super) fn show_measure(ui: &Ui, work: &mut Workspace, picture: &Response) {
 }
 
 fn scratch_lines(built: &Built, picked: &PickedScratch) -> Option<Vec<(&'static str, String)>> {
-    let (object, scratch) = picked.of(built)?;
+    let (object, scratch) = picked.find(built)?;
     let layer = built.description.scratches.get(picked.layer())?;
     let texts = ScratchTexts::new(object, scratch);
     let count = object.of_layer(scratch.layer).len();

@@ -202,13 +202,15 @@ fn read(spot: &ProbedPixel) -> Option<Reading> {
         density: image.density[0],
         depth_m: image.depth_m[0],
         normal: image.normal[0],
-        under: pixel.hit.and_then(|hit| under(built, &scene, *at_px, &hit)),
+        under: pixel
+            .hit
+            .and_then(|hit| surface_under(built, &scene, *at_px, &hit)),
         segments: pixel.segments,
         samples: pixel.samples,
     })
 }
 
-fn under(built: &Built, scene: &Scene, at_px: [u32; 2], hit: &Hit) -> Option<Under> {
+fn surface_under(built: &Built, scene: &Scene, at_px: [u32; 2], hit: &Hit) -> Option<Under> {
     let object = scene.objects.get(hit.object as usize)?;
     let mesh = &object.mesh;
     let material = *mesh.triangle_materials.get(hit.triangle as usize)?;

@@ -40,7 +40,7 @@ impl Viewport {
         let Some(described) = work.document.description().objects.get(hit.object) else {
             return;
         };
-        let part = parts::at(&built.scene, described, hit.object, hit.triangle);
+        let part = parts::part_with_triangle(&built.scene, described, hit.object, hit.triangle);
         if dropped.is_some() {
             work.give(preset, hit.object, part);
             return;

@@ -27,7 +27,7 @@ use draw_handles::{draw_handles, draw_off_screen, draw_words};
 use handles::{Handle, Placed};
 use motion::{Aim, Motion};
 
-pub(super) use lights::{at as light_at, middle as light_middle, show as show_lights};
+pub(super) use lights::{light_at, middle as light_middle, show as show_lights};
 
 /// Size of a handle's rectangle for the mouse, points.
 const REACH: f32 = 14.0;
@@ -68,7 +68,8 @@ impl Gizmo {
         let selection = work.selection();
         let description = Arc::clone(work.document.description());
         let lens = Lens::new(&work.camera(), area);
-        let body = Body::of(&description, selection).filter(|_| work.toolbox.tool == Tool::Select);
+        let body = Body::from_selection(&description, selection)
+            .filter(|_| work.toolbox.tool == Tool::Select);
         let Some(body) = body else {
             *self = Self::default();
             return;
@@ -83,7 +84,7 @@ impl Gizmo {
         let held = self.grab.as_ref().map(|grab| grab.handle);
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let over = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
-        let near = held.or_else(|| over.and_then(|pos| handles::under(&placed, pos)));
+        let near = held.or_else(|| over.and_then(|pos| handles::handle_at(&placed, pos)));
         // The handle under the pointer is drawn last, on top.
         placed.sort_by_key(|placed| Some(placed.handle) == near);
         let mut hovered = None;
@@ -132,7 +133,7 @@ impl Gizmo {
         }
         // The body as the drag has left it: one pass later is one pass too late.
         let description = work.document.description();
-        if let Some(body) = Body::of(description, selection)
+        if let Some(body) = Body::from_selection(description, selection)
             && let Some(mut placed) = handles::place(&body, &lens)
         {
             let size = placed.iter_mut().find(|placed| Some(placed.handle) == held);
@@ -180,12 +181,13 @@ impl Gizmo {
         let lens = Lens::new(&work.camera(), area);
         let start = Arc::clone(&grab.start);
         let selection = grab.selection;
-        let Some(body) = Body::of(&start, selection) else {
+        let Some(body) = Body::from_selection(&start, selection) else {
             return false;
         };
-        let motion = motion::of(&body, handle, &grab.pressed, &Aim { lens, pos }, snaps(ui));
+        let motion =
+            motion::drag_motion(&body, handle, &grab.pressed, &Aim { lens, pos }, snaps(ui));
         if let Some(motion) = motion {
-            let key = DragKey::of(("gizmo", selection, handle));
+            let key = DragKey::from_name(("gizmo", selection, handle));
             work.document.drag(name, key, |description| {
                 change::change(description, &start, selection, &motion);
             });

@@ -69,7 +69,7 @@ impl Lens {
     pub fn project(&self, point_m: DVec3) -> Option<Pos2> {
         let depth_m = self.depth_m(point_m);
         (depth_m > 0.0)
-            .then(|| self.corner + self.across(point_m) / depth_m as f32)
+            .then(|| self.corner + self.homogeneous_pos(point_m) / depth_m as f32)
             .filter(|pos| pos.is_finite())
     }
 
@@ -102,7 +102,7 @@ impl Lens {
     }
 
     /// Vector from the area's corner, times the depth.
-    fn across(&self, point_m: DVec3) -> egui::Vec2 {
+    fn homogeneous_pos(&self, point_m: DVec3) -> egui::Vec2 {
         let from_eye = point_m - self.eye_m();
         let per_px = [self.frame.per_px_x, self.frame.per_px_y];
         let [x, y] = per_px.map(|axis| from_eye.dot(axis) / axis.length_squared());

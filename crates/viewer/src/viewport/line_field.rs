@@ -188,7 +188,7 @@ impl LineField {
             .as_ref()
             .is_some_and(|layer| layer.is_of(built, index, object));
         if !is_same_layer {
-            self.layer = object.and_then(|object| Layer::of(built, index, object));
+            self.layer = object.and_then(|object| Layer::find(built, index, object));
             self.marks.clear();
             self.lines.clear();
             self.search = None;
@@ -251,7 +251,7 @@ fn lines(marks: &[Mark], built: &Built, lens: &Lens, deadline: Instant) -> Vec<M
 }
 
 impl Layer {
-    fn of(built: &Built, index: u32, object: usize) -> Option<Self> {
+    fn find(built: &Built, index: u32, object: usize) -> Option<Self> {
         let there = built.scene.objects.get(object)?;
         let scratches = Arc::clone(&there.scratches);
         let own = there.of_layer(index);

@@ -117,7 +117,7 @@ pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
     let lens = Lens::new(&work.camera(), area);
     let painter = ui.painter().with_clip_rect(area.rect);
     if let Some(picked) = &work.measure.picked
-        && let Some((object, scratch)) = picked.of(&built)
+        && let Some((object, scratch)) = picked.find(&built)
     {
         for piece in object.pieces(scratch) {
             let ends_m = [piece.start_m, piece.end_m].map(|end| end.as_dvec3());

@@ -66,12 +66,12 @@ impl Viewport {
         let is_in_hand = draws_region && !alt && !is_shielded && fingers.is_none();
         self.drag_region(work, area, response, is_in_hand);
         if pans && moved != DVec2::ZERO {
-            let key = DragKey::of("pan");
+            let key = DragKey::from_name("pan");
             work.move_view("Pan", Some(key), |camera| {
                 navigate::pan(camera, moved, size)
             });
         } else if orbits && moved != DVec2::ZERO {
-            let key = DragKey::of("orbit");
+            let key = DragKey::from_name("orbit");
             work.move_view("Orbit", Some(key), |camera| {
                 navigate::orbit(camera, moved, size)
             });
@@ -148,7 +148,7 @@ impl Viewport {
         self.wheeled = now;
         let under = pick::surface(work, area, pos);
         let under = under.map(|hit| (hit.point_m, work.is_of_subject(hit.object)));
-        let key = DragKey::of("zoom");
+        let key = DragKey::from_name("zoom");
         work.move_view("Zoom", Some(key), |camera| match under {
             Some((point_m, true)) => navigate::zoom_to(camera, point_m, steps),
             Some((point_m, false)) => navigate::zoom_past(camera, point_m, steps),
@@ -208,7 +208,7 @@ fn pick_part(work: &mut Workspace, hit: &Picked) {
     let (Some(described), Some(built)) = (described, work.engine.built()) else {
         return;
     };
-    let part = parts::at(&built.scene, &described, hit.object, hit.triangle);
+    let part = parts::part_with_triangle(&built.scene, &described, hit.object, hit.triangle);
     work.toolbox.tool = Tool::Select;
     if part.is_whole() {
         let text = format!(

@@ -39,7 +39,7 @@ struct Points {
 }
 
 impl Points {
-    fn of(description: &Description, selection: Selection) -> Option<Self> {
+    fn from_selection(description: &Description, selection: Selection) -> Option<Self> {
         let Selection::Layer(layer) = selection else {
             return None;
         };
@@ -67,7 +67,7 @@ impl Points {
     }
 
     /// The place among the points of one that is inserted where the pointer is on the curve; none beside it.
-    fn after(&self, built: &Built, lens: &Lens, pos: Pos2) -> Option<usize> {
+    fn insertion_place(&self, built: &Built, lens: &Lens, pos: Pos2) -> Option<usize> {
         let pieces: Vec<&Segment> = self.pieces(built).flatten().collect();
         let ends_m = |piece: &Segment| [piece.start_m, piece.end_m].map(|end| end.as_dvec3());
         let distance = |piece: &Segment| {
@@ -97,7 +97,7 @@ impl Points {
     }
 
     /// The point under the pointer.
-    fn at(&self, lens: &Lens, pos: Pos2) -> Option<usize> {
+    fn point_at(&self, lens: &Lens, pos: Pos2) -> Option<usize> {
         let distance = |point_m: &DVec3| lens.project(*point_m).map(|it| it.distance(pos));
         let distances = self.points_m.iter().map(distance).enumerate();
         let near = distances.filter_map(|(i, distance)| Some((i, distance?)));
@@ -164,7 +164,7 @@ impl PenTool {
             return;
         }
         let description = work.document.description();
-        let points = Points::of(description, work.selection());
+        let points = Points::from_selection(description, work.selection());
         let is_selected = |layer: usize| points.as_ref().is_some_and(|it| it.layer == layer);
         let is_curve = |layer: &usize| pen::curve(&description.scratches[*layer]).is_some();
         self.open = self
@@ -188,7 +188,7 @@ impl PenTool {
         is_free: bool,
     ) {
         self.follow(work);
-        let points = Points::of(work.document.description(), work.selection());
+        let points = Points::from_selection(work.document.description(), work.selection());
         let Some(points) = points.filter(|_| work.toolbox.tool == Tool::Pen) else {
             self.held = None;
             return;
@@ -196,7 +196,7 @@ impl PenTool {
         let lens = Lens::new(&work.camera(), area);
         if response.drag_started_by(PointerButton::Primary) && is_free {
             let origin = ui.input(|input| input.pointer.press_origin());
-            self.held = origin.and_then(|pos| points.at(&lens, pos));
+            self.held = origin.and_then(|pos| points.point_at(&lens, pos));
             self.chosen = self.held.map(|point| (points.layer, point)).or(self.chosen);
             work.document.end_drag();
         }
@@ -204,7 +204,7 @@ impl PenTool {
         if let (Some(point), Some(hit)) = (self.held, hit)
             && hit.object == points.object
         {
-            let key = DragKey::of(("pen", points.layer, point));
+            let key = DragKey::from_name(("pen", points.layer, point));
             let label = pen::move_label(&work.document.description().scratches[points.layer]);
             work.drag(label, key, |d| {
                 pen::move_point(d, points.layer, point, hit.point_m);
@@ -220,14 +220,14 @@ impl PenTool {
         self.follow(work);
         let lens = Lens::new(&work.camera(), area);
         let description = work.document.description().clone();
-        let points = Points::of(&description, work.selection());
+        let points = Points::from_selection(&description, work.selection());
         let begun = work.toolbox.lone_point();
         if begun.is_some_and(|(_, place_m)| is_at(&lens, place_m, pos)) {
             self.end(work);
             return;
         }
         if let Some(points) = &points
-            && let Some(point) = points.at(&lens, pos)
+            && let Some(point) = points.point_at(&lens, pos)
         {
             self.click_point(work, points, point);
             return;
@@ -243,7 +243,7 @@ impl PenTool {
         if let (None, None, Some(points)) = (self.open, begun, &points)
             && points.object == hit.object
             && let Some(built) = work.engine.built()
-            && let Some(point) = points.after(&built, &lens, pos)
+            && let Some(point) = points.insertion_place(&built, &lens, pos)
             && pen::curve(&description.scratches[points.layer]).is_some()
         {
             let layer = points.layer;
@@ -278,7 +278,7 @@ impl PenTool {
                 return;
             }
         }
-        let points = Points::of(work.document.description(), work.selection());
+        let points = Points::from_selection(work.document.description(), work.selection());
         self.chosen = points.map(|it| (it.layer, it.points_m.len() - 1));
     }
 
@@ -304,7 +304,7 @@ impl PenTool {
         let painter = ui.painter().with_clip_rect(area.rect);
         let pointer = ui.input(|input| input.pointer.latest_pos());
         let pointer = pointer.filter(|_| ui.rect_contains_pointer(area.rect));
-        let points = Points::of(work.document.description(), work.selection());
+        let points = Points::from_selection(work.document.description(), work.selection());
         let begun = work.toolbox.lone_point();
         let last_m = match (&points, self.open, begun) {
             (Some(points), Some(_), _) => points.points_m.last().copied(),
@@ -319,7 +319,7 @@ impl PenTool {
             ink::dot(&painter, at, 4.0, CHOSEN);
         }
         let near = match (&points, pointer) {
-            (Some(points), Some(pos)) => points.at(&lens, pos),
+            (Some(points), Some(pos)) => points.point_at(&lens, pos),
             _ => None,
         };
         if pointer.is_some() {

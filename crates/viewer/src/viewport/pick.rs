@@ -25,14 +25,14 @@ pub(super) struct Picked {
 pub(super) fn surface(work: &Workspace, area: &Area, pos: Pos2) -> Option<Picked> {
     let built = work.engine.built()?;
     let lens = Lens::new(&work.camera(), area);
-    along(&built, &lens, pos)
+    pick(&built, &lens, pos)
 }
 
 /// Picks in a scene and a view that are at hand: two rays, some microseconds.
 ///
 /// A ray that runs exactly along an edge may miss both of its triangles by a rounding, and then meets what lies behind; one
 /// a hair beside it does not.
-pub(super) fn along(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
+pub(super) fn pick(built: &Built, lens: &Lens, pos: Pos2) -> Option<Picked> {
     const HAIR: egui::Vec2 = egui::vec2(0.013, 0.007);
     let (hit, beside) = (meet(built, lens, pos), meet(built, lens, pos + HAIR));
     let distance_m = |hit: &Picked| hit.point_m.distance(lens.eye_m());

@@ -83,7 +83,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
         }
     }
     work.document
-        .drag("Place light", DragKey::of(("place light", i)), |d| {
+        .drag("Place light", DragKey::from_name(("place light", i)), |d| {
             d.lights[i] = light;
         });
 }

@@ -100,7 +100,7 @@ impl StrokeTool {
             let pos = response.interact_pointer_pos().or(response.hover_pos());
             let pos = pos.filter(|pos| area.rect.contains(*pos));
             let pos = pos.filter(|_| work.overlays.has(Overlay::Brush));
-            if let Some(hit) = pos.and_then(|pos| pick::along(&built, &lens, pos)) {
+            if let Some(hit) = pos.and_then(|pos| pick::pick(&built, &lens, pos)) {
                 let going_on = self.going_on.as_ref();
                 // A stroke keeps the width that it began with.
                 let radius_m = match going_on.map(|going| going.settings.radius_m) {
@@ -175,9 +175,9 @@ struct World<'a> {
 }
 
 impl World<'_> {
-    fn at(&self, pos: Pos2) -> Option<StrokePoint> {
+    fn stroke_point(&self, pos: Pos2) -> Option<StrokePoint> {
         let is_in_picture = self.area.rect.contains(pos);
-        let hit = is_in_picture.then(|| pick::along(self.built, self.lens, pos))??;
+        let hit = is_in_picture.then(|| pick::pick(self.built, self.lens, pos))??;
         Some(StrokePoint { pos, hit })
     }
 
@@ -195,7 +195,7 @@ impl World<'_> {
             return Some(vec![b.hit.point_m]);
         }
         let halvings = halvings.checked_sub(1)?;
-        let middle = self.at(a.pos.lerp(b.pos, 0.5))?;
+        let middle = self.stroke_point(a.pos.lerp(b.pos, 0.5))?;
         if middle.hit.object != a.hit.object {
             return None;
         }
@@ -209,7 +209,7 @@ impl Going {
     /// Follows the pointer: places between two passes are looked up too, since a surface is not straight between them.
     fn follow(&mut self, world: World, to: Pos2) {
         for pos in way(self.pos, to) {
-            self.take(world, world.at(pos));
+            self.take(world, world.stroke_point(pos));
         }
         self.pos = to;
     }
@@ -261,7 +261,7 @@ fn way(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
 }
 
 fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
-    let place = world.at(pos)?;
+    let place = world.stroke_point(pos)?;
     let hit = place.hit;
     let object = work.document.description().objects.get(hit.object)?;
     let world_from_object = object.world_from_object();

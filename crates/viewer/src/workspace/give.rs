@@ -15,7 +15,7 @@ impl Workspace {
         let (low_m, high_m) = self.bounds_m(object.or(self.selected_object()));
         let sides_m = high_m - low_m;
         let up = self.document.description().camera.world_up();
-        StandIn::of(sides_m.to_array(), sides_m.dot(up).abs())
+        StandIn::for_box(sides_m.to_array(), sides_m.dot(up).abs())
     }
 
     /// Gives a preset to a part of an object, as one step. Metals and layers lie on the part; other presets on all of the object.

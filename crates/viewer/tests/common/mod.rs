@@ -33,7 +33,7 @@ pub fn bare_disk() -> SceneFile {
         .toward([0.0, 0.0, 0.03])
         .fov_y_deg(30.0)
         .metal("steel", "steel")
-        .with("roughness = 0.1")
+        .with_lines("roughness = 0.1")
         .object("disk", "steel", "disk = { radius_m = 0.1 }")
         .sphere([-0.06, 0.03, 0.1], 0.01, 50.0)
 }

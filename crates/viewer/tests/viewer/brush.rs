@@ -15,7 +15,7 @@ use hairline_viewer::Viewer;
 static STEEL_BALL: LazyLock<String> = LazyLock::new(|| {
     SceneFile::seen_from([0.0, -0.5, 0.0])
         .metal("steel", "steel")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .object("ball", "steel", BALL)
         .sphere([0.1, -0.3, 0.3], 0.02, 10.0)
         .to_string()

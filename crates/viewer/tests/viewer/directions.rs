@@ -15,11 +15,13 @@ static FROM_ABOVE: LazyLock<String> = LazyLock::new(|| {
     SceneFile::seen_from([0.0, 0.0, 0.5])
         .up([0.0, 1.0, 0.0])
         .metal("steel", "steel")
-        .with("roughness = 0.2")
+        .with_lines("roughness = 0.2")
         .object("disk", "steel", "disk = { radius_m = 0.1 }")
         .laid("disk", "circular", 3000)
-        .with("name = \"turned\"\nseed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
-        .with("width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }")
+        .with_lines("name = \"turned\"\nseed = 1\nlength_m = { mean = 0.05, spread = 0.3 }")
+        .with_lines(
+            "width_um = { mean = 5.0, spread = 0.1 }\ndepth_nm = { mean = 180.0, spread = 0.1 }",
+        )
         .to_string()
 });
 

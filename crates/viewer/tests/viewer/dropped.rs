@@ -169,8 +169,8 @@ fn objects_are_hidden_by_their_box_with_all_that_lies_on_them() {
     assert!(description(&harness).objects[0].hidden);
     wait_until(&mut harness, "an empty scene", |viewer| {
         let built = viewer.engine().built();
-        built.is_some_and(|it| {
-            let object = &it.scene.objects[0];
+        built.is_some_and(|built| {
+            let object = &built.scene.objects[0];
             object.mesh.triangles.is_empty() && object.scratches.is_empty()
         })
     });

@@ -141,7 +141,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
     };
     let folder = tempfile::tempdir().unwrap();
     let text = (common::bare_disk().random("disk", 200))
-        .with("length_m = 0.05")
+        .with_lines("length_m = 0.05")
         .size_px([48, 32])
         .to_string();
     let options = Options {

@@ -127,8 +127,8 @@ fn are_added_and_built(presets: &[GratingPreset]) {
         assert_eq!(grating(&harness).pitch_um, pitch_um);
         wait_until(&mut harness, preset.name(), |viewer| {
             let built = viewer.engine().built();
-            built.is_some_and(|it| {
-                it.description.gratings == viewer.document().description().gratings
+            built.is_some_and(|built| {
+                built.description.gratings == viewer.document().description().gratings
             })
         });
         undo(&mut harness);

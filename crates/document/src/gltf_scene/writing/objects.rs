@@ -212,8 +212,8 @@ impl<'a> Objects<'a> {
             .find(|it| it.name == *name)?;
         // What a mesh in memory is of comes out of the file with it.
         let mut all = self.described.objects.iter();
-        self.file.pushes_own = all.any(|it| match &it.surface {
-            Surface::Mesh(path) => it.material == object.material && self.is_array(path),
+        self.file.pushes_own = all.any(|other| match &other.surface {
+            Surface::Mesh(path) => other.material == object.material && self.is_array(path),
             Surface::Shape(_) => false,
         });
         let material = convert::material(material);
@@ -236,9 +236,9 @@ impl<'a> Objects<'a> {
 
     fn tangents(&mut self, surface: &Triangles) -> usize {
         let vertices = surface.vertices.iter();
-        let all = vertices.flat_map(|it| {
-            let sign = it.handedness as f32;
-            it.tangent.as_vec3().extend(sign).to_array()
+        let all = vertices.flat_map(|vertex| {
+            let sign = vertex.handedness as f32;
+            vertex.tangent.as_vec3().extend(sign).to_array()
         });
         self.file.push_floats(&all.collect::<Vec<f32>>(), 4, false)
     }

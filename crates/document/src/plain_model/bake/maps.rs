@@ -1,7 +1,7 @@
 //! Maps of sums: what the surface has by itself, and its scratches.
 
 use glam::{DMat3, DVec2, DVec3};
-use hairline_model::texture::{Channels, Texels, of};
+use hairline_model::texture::{Channels, Texels, build_texture};
 use hairline_scene::{Material, Sampling, Texture};
 use rayon::prelude::*;
 
@@ -55,7 +55,7 @@ struct Layer {
 }
 
 impl Layer {
-    fn of(material: &Material) -> Self {
+    fn outermost(material: &Material) -> Self {
         match &material.coat {
             Some(coat) => Self {
                 normal: material.coat_normal_texture,
@@ -78,7 +78,7 @@ pub(super) fn of_sums(
     material: &Material,
     textures: &[Texture],
 ) -> Maps {
-    let layer = Layer::of(material);
+    let layer = Layer::outermost(material);
     let texels = sums.par_iter().enumerate().map(|(texel, sum)| {
         let (triangle, weights) = atlas.surface(texel)?;
         let own = own(atlas, triangle, weights, &layer, textures);
@@ -109,17 +109,17 @@ pub(super) fn of_sums(
                 by_other_uvs: atlas.by_other_uvs,
                 ..Sampling::default()
             },
-            ..of(image, channels, false)
+            ..build_texture(image, channels, false)
         }
     };
-    let normal = |it: &Baked, _: f64| {
-        let [x, y, z] = it.normal;
+    let normal = |texel: &Baked, _: f64| {
+        let [x, y, z] = texel.normal;
         [x, y, z, FULL]
     };
-    let rough = |it: &Baked, roughest: f64| {
-        let share = (it.roughness / roughest).min(1.0);
+    let rough = |texel: &Baked, roughest: f64| {
+        let share = (texel.roughness / roughest).min(1.0);
         let code = (share * f64::from(FULL)).round() as u8;
-        [FULL, code, it.metallic, FULL]
+        [FULL, code, texel.metallic, FULL]
     };
     Maps {
         normals: codes(normal, Channels::Normals),
@@ -183,7 +183,7 @@ fn own(atlas: &Atlas, triangle: u32, weights: DVec3, layer: &Layer, textures: &[
 fn lean(atlas: &Atlas, triangle: u32, weights: DVec3, n: DVec3) -> DVec2 {
     let mesh = atlas.mesh;
     let corners = mesh.triangles[triangle as usize].map(|v| v as usize);
-    let mean = |of: [DVec3; 3]| DMat3::from_cols(of[0], of[1], of[2]) * weights;
+    let mean = |columns: [DVec3; 3]| DMat3::from_cols(columns[0], columns[1], columns[2]) * weights;
     let normal = mean(corners.map(|v| mesh.normals[v].as_dvec3())).normalize_or(DVec3::Z);
     let tangent = mean(corners.map(|v| mesh.tangents[v].truncate().as_dvec3()));
     let tangent = (tangent - normal * normal.dot(tangent)).normalize_or_zero();

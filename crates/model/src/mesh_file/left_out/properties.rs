@@ -11,7 +11,7 @@ const EVERYWHERE: [&str; 2] = ["name", "extras"];
 /// Calls `tell` for each property that neither the specification nor an extension defines, with the name of its element. What
 /// surfaces look like is passed over where `with_looks` is false.
 pub(super) fn unknown(root: &Value, with_looks: bool, tell: &mut impl FnMut(&str, &str)) {
-    let is_told = |name: &str| with_looks || Scope::File.within(name) != Scope::Look;
+    let is_told = |name: &str| with_looks || Scope::File.of_member(name) != Scope::Look;
     for (name, value) in members(root).filter(|it| is_told(it.0)) {
         FILE_ELEMENTS
             .iter()

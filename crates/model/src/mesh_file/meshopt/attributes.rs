@@ -32,7 +32,10 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     let end = end.filter(|end| *end >= 1).ok_or("it is cut off")?;
     let (mut last, ways) = packed[packed.len() - tail..].split_at(stride);
     let ways = match is_newer {
-        true => ways.iter().map(|way| DeltaCoding::of(*way)).collect(),
+        true => ways
+            .iter()
+            .map(|way| DeltaCoding::from_byte(*way))
+            .collect(),
         false => Some(vec![DeltaCoding::Bytes; stride / 4]),
     };
     let ways = ways.ok_or("its differences are of an unknown kind")?;
@@ -81,7 +84,7 @@ enum DeltaCoding {
 }
 
 impl DeltaCoding {
-    fn of(byte: u8) -> Option<Self> {
+    fn from_byte(byte: u8) -> Option<Self> {
         match (byte & 15, u32::from(byte >> 4)) {
             (0, 0) => Some(Self::Bytes),
             (1, 0) => Some(Self::Pairs),

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(600);
 fn description() -> Arc<Description> {
     Arc::new(
         oblique_plate(300, 0.01)
-            .with("width_um = { mean = 4.0, spread = 0.1 }")
+            .with_lines("width_um = { mean = 4.0, spread = 0.1 }")
             .fov_y_deg(40.0)
             .description(),
     )

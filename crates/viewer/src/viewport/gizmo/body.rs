@@ -30,7 +30,7 @@ pub(super) struct Body {
 
 impl Body {
     /// Body of the selection; none where that has no place, or is hidden.
-    pub fn of(description: &Description, selection: Selection) -> Option<Self> {
+    pub fn from_selection(description: &Description, selection: Selection) -> Option<Self> {
         match selection {
             Selection::Light(i) => {
                 let light = description.lights.get(i).filter(|light| !light.hidden)?;
@@ -68,7 +68,7 @@ impl Body {
             resizes: true,
             normal: place_light::facing(light),
             corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),
-            spot: LightCone::of(light),
+            spot: LightCone::from_light(light),
         }
     }
 }

@@ -41,7 +41,7 @@ pub(super) struct LightCone {
 
 impl LightCone {
     /// Cone of a light; none without a cone.
-    pub fn of(light: &Light) -> Option<Self> {
+    pub fn from_light(light: &Light) -> Option<Self> {
         let cone = light.cone.as_ref()?;
         let apex_m = place_light::center(light);
         let towards = match light.kind.axis() {

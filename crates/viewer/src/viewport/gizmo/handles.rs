@@ -212,7 +212,7 @@ fn freest(directions: &[Vec2]) -> Vec2 {
 }
 
 /// The handle that a pointer means: knobs before lines, the nearest of each.
-pub(super) fn under(placed: &[Placed], pos: Pos2) -> Option<Handle> {
+pub(super) fn handle_at(placed: &[Placed], pos: Pos2) -> Option<Handle> {
     let distances = |measure: fn(&Placed, Pos2) -> f32, reach: f32| {
         let near = placed
             .iter()

@@ -45,7 +45,7 @@ pub(in crate::viewport) fn show(
         for piece in outline(light, lens, description) {
             ink::segment(painter, piece, width, color);
         }
-        let cone = LightCone::of(light).map(|spot| spot.outline(lens));
+        let cone = LightCone::from_light(light).map(|spot| spot.outline(lens));
         for piece in cone.into_iter().flatten() {
             ink::segment(painter, piece, 0.7 * width, color.gamma_multiply(0.7));
         }
@@ -59,7 +59,11 @@ pub(in crate::viewport) fn show(
 }
 
 /// The light whose outline or middle is nearest to a click, within reach.
-pub(in crate::viewport) fn at(description: &Description, lens: &Lens, pos: Pos2) -> Option<usize> {
+pub(in crate::viewport) fn light_at(
+    description: &Description,
+    lens: &Lens,
+    pos: Pos2,
+) -> Option<usize> {
     let lights = description.lights.iter().enumerate();
     let distances = lights.filter(|(_, light)| !light.hidden).map(|(i, light)| {
         let to_outline = outline(light, lens, description)

@@ -47,14 +47,20 @@ pub(super) struct Aim {
 
 impl Aim {
     /// Point where the ray meets a plane.
-    fn on(&self, through_m: DVec3, normal: DVec3) -> Option<DVec3> {
+    fn on_plane(&self, through_m: DVec3, normal: DVec3) -> Option<DVec3> {
         self.lens.on_plane(self.pos, through_m, normal)
     }
 }
 
 /// Motion by a drag of the handle from one place to another, for the body in its state at the first; none if
 /// the pointer's ray gives no motion.
-pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool) -> Option<Motion> {
+pub(super) fn drag_motion(
+    body: &Body,
+    handle: Handle,
+    from: &Aim,
+    to: &Aim,
+    snaps: bool,
+) -> Option<Motion> {
     let center_m = body.center_m;
     let eye_m = from.lens.eye_m();
     let motion = match handle {
@@ -62,12 +68,12 @@ pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool)
             let axis = DVec3::AXES[i];
             // The plane through the axis that faces the eye.
             let normal = axis.cross(axis.cross(center_m - eye_m)).try_normalize()?;
-            let along = |aim: &Aim| Some((aim.on(center_m, normal)? - center_m).dot(axis));
+            let along = |aim: &Aim| Some((aim.on_plane(center_m, normal)? - center_m).dot(axis));
             let most_m = FARTHEST * center_m.distance(eye_m);
             Motion::Move(axis * (along(to)? - along(from)?).clamp(-most_m, most_m))
         }
         Handle::Middle => {
-            let on = |aim: &Aim| aim.on(center_m, aim.lens.forward());
+            let on = |aim: &Aim| aim.on_plane(center_m, aim.lens.forward());
             Motion::Move(on(to)? - on(from)?)
         }
         Handle::Ring(i) => {
@@ -85,7 +91,7 @@ pub(super) fn of(body: &Body, handle: Handle, from: &Aim, to: &Aim, snaps: bool)
             let normal = body.normal?;
             Motion::Corner(
                 i,
-                corner_m + (to.on(corner_m, normal)? - from.on(corner_m, normal)?),
+                corner_m + (to.on_plane(corner_m, normal)? - from.on_plane(corner_m, normal)?),
             )
         }
         Handle::Rim(rim) => {
@@ -109,8 +115,8 @@ fn turn_rad(center_m: DVec3, axis: DVec3, from: &Aim, to: &Aim) -> Option<f64> {
     if to_eye.dot(axis).abs() > EDGE_ON {
         // Angle between the two arms in the ring's plane.
         let (a, b) = (
-            from.on(center_m, axis)? - center_m,
-            to.on(center_m, axis)? - center_m,
+            from.on_plane(center_m, axis)? - center_m,
+            to.on_plane(center_m, axis)? - center_m,
         );
         return Some(a.cross(b).dot(axis).atan2(a.dot(b)));
     }
