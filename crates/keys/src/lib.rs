@@ -15,9 +15,9 @@
 //! | `#[then(KEY, ..)]` | a field | keys that follow it in lists and are no fields |
 //! | `#[keyed(table)]` | a struct | a table of the file: a value by itself |
 //! | `#[keyed(table, kinds = Kind)]` | a struct | a table in which a tag tells the kind |
-//! | `#[keyed(held)]` | a struct | as `table`, with a reader of its own |
+//! | `#[keyed(own_reader)]` | a struct | as `table`, with a reader of its own |
 //! | `#[keyed(default)]` | a struct | its default has the initial values of its keys |
-//! | `#[keyed(check = function)]` | a struct, an enum | checked by `fn(&Self, way: &str) -> Check` too |
+//! | `#[keyed(check = function)]` | a struct, an enum | checked by `fn(&Self, key_path: &str) -> Check` too |
 //! | `#[keyed(remote = Type)]` | a struct | stands for a struct of another crate that has the same fields |
 //! | `#[keyed(tag = "kind")]` | an enum | the value of the tag tells the variant |
 //! | `#[kind("name", before = KEYS, after = KEYS)]` | a variant | the value of the tag, and keys that belong to it, listed before and after its fields |

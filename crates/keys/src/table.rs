@@ -63,7 +63,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
             use crate::description::keyed::Keyed;
             use crate::description::panel::{Panel, Rows};
             use crate::description::ranges::Check;
-            use crate::description::table::{Held, Read, Table, Value};
+            use crate::description::table::{KeyValue, Read, Table, Value};
             use crate::error::Error;
 
             impl Keyed for #target {
@@ -73,7 +73,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
                     Ok(Self { #(#members: #reads),* })
                 }
 
-                fn check_keys(&self, way: &str) -> Check {
+                fn check_keys(&self, key_path: &str) -> Check {
                     #(#checks)*
                     #check_more
                 }
@@ -116,21 +116,21 @@ fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
         true => quote!(Some(Self::default())),
         false => quote!(None),
     };
-    (options.is_table || options.is_held).then(|| {
+    (options.is_table || options.has_own_reader).then(|| {
         quote! {
             #read
 
             impl crate::description::ranges::Numbers for #target {}
 
-            impl Held for #target {
+            impl KeyValue for #target {
                 const FORM: crate::schema::Form = crate::schema::Form::Table;
 
                 fn initial(_: crate::schema::Initial) -> Option<Self> {
                     #initial
                 }
 
-                fn check_at(&self, _: &crate::schema::Key, way: &str) -> Check {
-                    self.check_keys(way)
+                fn check_at(&self, _: &crate::schema::Key, key_path: &str) -> Check {
+                    self.check_keys(key_path)
                 }
 
                 fn written(&self) -> impl serde::Serialize {

@@ -23,7 +23,7 @@ use web_time::Instant;
 
 use crate::command::Command;
 use crate::compare::{Compare, Figures};
-use crate::dialogs::{Dialogs, Wish};
+use crate::dialogs::{Dialogs, PendingAction};
 use crate::engine::{Backend, Engine};
 use crate::examples::Examples;
 use crate::export::Export;
@@ -78,8 +78,8 @@ pub struct Viewer {
     typed: Option<(Purpose, PathBuf)>,
     /// The file that is not there and is being looked for, as the scene names it.
     sought: Option<PathBuf>,
-    /// Wish that is fulfilled once the scene is saved.
-    after_save: Option<Wish>,
+    /// Action that is performed once the scene is saved.
+    after_save: Option<PendingAction>,
     hides_list: bool,
     hides_inspector: bool,
     /// A text had the keyboard at the end of the last pass.
@@ -154,8 +154,8 @@ impl Viewer {
             missing: Vec::new(),
             model_notes: Vec::new(),
             wanted_picture: None,
-            wished: Vec::new(),
-            wished_when_built: None,
+            requested: Vec::new(),
+            requested_when_built: None,
         };
         let mut viewer = Self {
             work,
@@ -324,7 +324,7 @@ impl Viewer {
             self.ask_path(&ctx, purpose);
         }
         self.export.show(&ctx, &mut self.work, area);
-        for command in std::mem::take(&mut self.work.wished) {
+        for command in std::mem::take(&mut self.work.requested) {
             self.run(&ctx, command);
         }
         self.show_dialogs(&ctx);

@@ -68,9 +68,9 @@ pub(crate) struct Workspace {
     /// The picture whose file a panel wants to be chosen.
     pub wanted_picture: Option<PictureOf>,
     /// Commands of panels, to be run once all panels are shown.
-    pub wished: Vec<Command>,
+    pub requested: Vec<Command>,
     /// Command to be run once the objects are built as they are described.
-    pub wished_when_built: Option<Command>,
+    pub requested_when_built: Option<Command>,
 }
 
 impl Workspace {

@@ -52,13 +52,17 @@ pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check)
 fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     let mut seen = HashSet::new();
     for (i, name) in names.enumerate() {
-        let way = format!("{key}[{i}].name");
+        let key_path = format!("{key}[{i}].name");
         if name.is_empty() {
-            return Err(Error::new(way, "found an empty name", "must not be empty"));
+            return Err(Error::new(
+                key_path,
+                "found an empty name",
+                "must not be empty",
+            ));
         }
         if !seen.insert(name) {
             let found = format!("found a second {key} called \"{}\"", shown(name));
-            return Err(Error::new(way, found, "names must differ"));
+            return Err(Error::new(key_path, found, "names must differ"));
         }
     }
     Ok(())
@@ -77,18 +81,18 @@ pub(super) fn check_gratings(gratings: &[Grating]) -> Check {
 /// Depths of one profile.
 const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
 
-/// Checks a cross section; `way` is the way to it.
-pub(super) fn check_profile(section: &Section, key: &Key, way: &str) -> Check {
+/// Checks a cross section; `key_path` leads to it.
+pub(super) fn check_profile(section: &Section, key: &Key, key_path: &str) -> Check {
     let Section::Listed(depths) = section else {
         return Ok(());
     };
-    let wrong = |found: String, right: String| Err(Error::new(way, found, right));
+    let wrong = |found: String, right: String| Err(Error::new(key_path, found, right));
     if !PROFILE_DEPTHS.contains(&depths.len()) {
         let (least, most) = PROFILE_DEPTHS.into_inner();
         let right = format!("must be from {least} to {most}, from the middle to the rim");
         return wrong(format!("found {} depths", depths.len()), right);
     }
-    key.check_numbers(way, &depths[..])?;
+    key.check_numbers(key_path, &depths[..])?;
     match depths.iter().all(|depth| *depth == 0.0) {
         true => wrong(
             "found no depth but 0".to_owned(),

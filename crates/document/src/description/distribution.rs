@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use super::panel::RowValue;
 use super::ranges::{Check, Numbers, Take};
-use super::table::{Held, Read, Table, Value, number, wrong_type};
+use super::table::{KeyValue, Read, Table, Value, number, wrong_type};
 use crate::error::Error;
 use crate::schema::{Form, Initial};
 
@@ -66,7 +66,7 @@ impl Read for Distribution {
     }
 }
 
-impl Held for Distribution {
+impl KeyValue for Distribution {
     const FORM: Form = Form::Sizes;
 
     fn initial(initial: Initial) -> Option<Self> {

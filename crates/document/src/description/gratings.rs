@@ -18,7 +18,7 @@ use crate::schema::Entry;
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(held, check = Grating::check_companions)]
+#[keyed(own_reader, check = Grating::check_companions)]
 pub struct Grating {
     /// What they cover.
     #[key(range_words("name of an object"))]

@@ -120,7 +120,7 @@ impl Viewer {
         let objects = &self.work.document.description().objects;
         let built = self.work.engine.built();
         let is_built = built.is_some_and(|built| built.description.objects == *objects);
-        if is_built && let Some(command) = self.work.wished_when_built.take() {
+        if is_built && let Some(command) = self.work.requested_when_built.take() {
             self.run(ctx, command);
         }
     }
@@ -182,7 +182,7 @@ impl Viewer {
             return;
         }
         if let Some(label) = work.document.refuse_step() {
-            work.wished_when_built = None;
+            work.requested_when_built = None;
             let text = format!("{label}: it is as it was before. {why}");
             work.notices.error("change", text);
         }

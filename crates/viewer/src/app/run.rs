@@ -6,7 +6,7 @@ use hairline_editor::{Selection, navigate};
 
 use super::Viewer;
 use crate::command::{self, Command};
-use crate::dialogs::{Choice, PresetLine, Question, Wish};
+use crate::dialogs::{Choice, PendingAction, PresetLine, Question};
 use crate::files::Purpose;
 use crate::free_view::ViewCommand;
 use crate::panels;
@@ -27,7 +27,7 @@ impl Viewer {
             return;
         }
         match command {
-            Command::New => self.wish(ctx, Wish::New),
+            Command::New => self.request(ctx, PendingAction::New),
             Command::Gallery if HAS_PAGE => platform::show_gallery(),
             Command::Gallery => {
                 let choice = Choice::new(self.work.examples);
@@ -37,7 +37,7 @@ impl Viewer {
             Command::Save => self.save(ctx),
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Command::CopyLink => self.copy_link(ctx),
-            Command::Reload => self.wish_reload(),
+            Command::Reload => self.request_reload(),
             Command::Revert => self.revert(),
             Command::AddModel => self.ask_path(ctx, Purpose::AddModel),
             Command::SetEnvironment => self.ask_path(ctx, Purpose::Environment),

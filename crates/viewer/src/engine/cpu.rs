@@ -15,7 +15,7 @@ use super::drafts::Drafts;
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::partial::Backdrop;
-use super::pool::Crew;
+use super::pool::Pool;
 use super::request::Order;
 use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::Step;
@@ -111,15 +111,15 @@ impl StepRenderer for CpuStepRenderer {
             }
             (None, _) => Bands::new(step.size_px, self.band_size),
         };
-        let crew = if is_coarse {
-            Crew::Sketcher
+        let pool = if is_coarse {
+            Pool::Sketcher
         } else {
-            Crew::Painter
+            Pool::Painter
         };
         let scene = step.scene(order);
         let mut prepared = prepared(&order.built, &scene);
         if step.thin > 1 || order.built.sketch.is_some() {
-            let draft = crew.install(|| self.drafts.draft(&order.built, step.thin));
+            let draft = pool.install(|| self.drafts.draft(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
         // What was there before it, shown until the step is done.
@@ -132,7 +132,7 @@ impl StepRenderer for CpuStepRenderer {
             if interrupted() {
                 break false;
             }
-            let go_on = crew.install(|| bands.next(&prepared, &options, interrupted));
+            let go_on = pool.install(|| bands.next(&prepared, &options, interrupted));
             match go_on {
                 Some(true) => break true,
                 Some(false) => {}
@@ -176,7 +176,7 @@ impl StepRenderer for CpuStepRenderer {
         }
         let (mut image, samples) = match step.batch {
             None => (bands.image, step.samples),
-            Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
+            Some(batch) => pool.install(|| self.adding.add(order, batch, bands.image)),
         };
         image.traced = None;
         let last = Last {

@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if is_choosable && ui.button("Another map…").clicked() {
-            work.wished.push(Command::SetEnvironment);
+            work.requested.push(Command::SetEnvironment);
         }
         if ui.button("Remove the map").clicked() {
             work.set_environment("Remove the environment", None);

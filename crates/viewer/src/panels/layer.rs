@@ -261,7 +261,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
         let keep = egui::Button::new(Command::SavePreset.label());
         let keep = ui.add_enabled(work.can(Command::SavePreset), keep);
         if keep.on_disabled_hover_text(NO_PRESET).clicked() {
-            work.wished.push(Command::SavePreset);
+            work.requested.push(Command::SavePreset);
         }
         for command in [
             Command::Duplicate,

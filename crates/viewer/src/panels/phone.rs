@@ -93,7 +93,7 @@ fn top(ui: &mut Ui, work: &mut Workspace, files: &Files) -> Option<PathBuf> {
                     .add_enabled(work.can(command), Button::new(name))
                     .clicked()
             {
-                work.wished.push(command);
+                work.requested.push(command);
             }
         }
     });

@@ -152,7 +152,7 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
     match (painted.is_final, painted.samples) {
         _ if is_stale => "rendering the new view".to_owned(),
         _ if painted.transport != wanted => {
-            let left_out = ways(wanted);
+            let left_out = transport_words(wanted);
             match painted.thin == 1 && painted.size_px == frame.view.size_px {
                 true if painted.done < 1.0 => {
                     format!("{left_out} follow, {:.0} %", 100.0 * painted.done)
@@ -171,7 +171,11 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
             false => format!("sample {samples} of {all}"),
         },
         _ if painted.done < 1.0 && wanted.shadows => {
-            format!("adding {}, {:.0} %", ways(wanted), 100.0 * painted.done)
+            format!(
+                "adding {}, {:.0} %",
+                transport_words(wanted),
+                100.0 * painted.done
+            )
         }
         _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
         (false, 1) if painted.thin > 1 => format!("refining, one scratch of {}", painted.thin),
@@ -189,12 +193,12 @@ fn pause(ui: &mut Ui, work: &mut Workspace) {
         "Whether pictures become finer while nothing moves. A new view or a change is shown once, coarsely, all the same (Shift+P)",
     );
     if button.clicked() {
-        work.wished.push(Command::Pause);
+        work.requested.push(Command::Pause);
     }
 }
 
 /// Name of the light besides the closed form.
-fn ways(wanted: Transport) -> &'static str {
+fn transport_words(wanted: Transport) -> &'static str {
     match wanted.bounces {
         0 => "shadows",
         _ => "shadows and bounces",
@@ -220,7 +224,7 @@ fn transport(ui: &mut Ui, work: &mut Workspace) {
             .on_hover_text("Objects hide lights and the environment from one another")
             .changed()
         {
-            work.wished.push(Command::Shadows);
+            work.requested.push(Command::Shadows);
         }
         ui.add_enabled_ui(shadows, |ui| {
             ui.horizontal(|ui| {

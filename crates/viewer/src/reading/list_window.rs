@@ -110,7 +110,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
             work.measure.reveals = true;
         }
         if ui.button(Command::SaveList.label()).clicked() {
-            work.wished.push(Command::SaveList);
+            work.requested.push(Command::SaveList);
         }
     });
     if let Some(index) = chosen {

@@ -96,7 +96,7 @@ fn show_box(painter: &Painter, lens: &Lens, low_m: DVec3, high_m: DVec3) {
             let is_edge = (*a - *b)
                 .to_array()
                 .iter()
-                .filter(|way| **way != 0.0)
+                .filter(|sign| **sign != 0.0)
                 .count()
                 == 1;
             if let Some(ends) = lens.segment(*a, *b).filter(|_| is_edge) {

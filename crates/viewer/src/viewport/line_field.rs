@@ -287,13 +287,13 @@ impl Layer {
             .get(scratch.segments.start as usize..scratch.segments.end as usize)?;
         let place = part(0.754_877_666_246_692_7) * run.len() as f64;
         let segment = run.get(place as usize)?;
-        let way = segment.end_m - segment.start_m;
+        let span = segment.end_m - segment.start_m;
         let within = place.fract() as f32;
         Some(Mark {
             number: of_layer,
-            point_m: (segment.start_m + way * within).as_dvec3(),
+            point_m: (segment.start_m + span * within).as_dvec3(),
             normal: segment.normal.as_dvec3(),
-            along: way.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
+            along: span.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
         })
     }
 }

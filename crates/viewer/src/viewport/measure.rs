@@ -135,8 +135,8 @@ pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
     let Some(span) = work.measure.span.found() else {
         return;
     };
-    let way_m = span.way_m.as_deref().unwrap_or(&span.ends_m);
-    let way: Vec<Pos2> = way_m.iter().filter_map(|at| lens.project(*at)).collect();
+    let path_m = span.path_m.as_deref().unwrap_or(&span.ends_m);
+    let points: Vec<Pos2> = path_m.iter().filter_map(|at| lens.project(*at)).collect();
     for end in span.ends_m.iter().filter_map(|end| lens.project(*end)) {
         ink::dot(&painter, end, 3.0, Color32::WHITE);
     }
@@ -153,5 +153,5 @@ pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
             Color32::WHITE,
         );
     }
-    ink::line(&painter, way, 1.5, Color32::WHITE);
+    ink::line(&painter, points, 1.5, Color32::WHITE);
 }

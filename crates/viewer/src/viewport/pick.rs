@@ -47,9 +47,9 @@ const LEAST_FACING: f64 = 0.12;
 
 /// Whether the camera sees a place on a surface from the side of this normal, with nothing before it.
 pub(super) fn is_seen(built: &Built, lens: &Lens, point_m: DVec3, normal: DVec3) -> bool {
-    let way = point_m - lens.eye_m();
-    let distance_m = way.length();
-    let ray = way / distance_m;
+    let offset = point_m - lens.eye_m();
+    let distance_m = offset.length();
+    let ray = offset / distance_m;
     if !(-ray.dot(normal) > LEAST_FACING) {
         return false;
     }

@@ -101,9 +101,9 @@ enum Stands {
 /// Brings a light nearer to its highlight, or farther from it, until nothing is in its way: it is neither inside of an object nor below the
 /// ground.
 fn stand_clear(light: &mut Light, built: &Built, highlight: &Picked) -> Stands {
-    let way = center(light) - highlight.point_m;
-    let wanted_m = way.length();
-    let (Some(towards), None) = (way.try_normalize(), light.kind.sunbeam()) else {
+    let offset = center(light) - highlight.point_m;
+    let wanted_m = offset.length();
+    let (Some(towards), None) = (offset.try_normalize(), light.kind.sunbeam()) else {
         return Stands::AsFar;
     };
     let off = highlight.normal * (OFF_SURFACE * wanted_m);
@@ -151,9 +151,9 @@ fn touched(light: &Light, built: &Built) -> Option<usize> {
         false => corners_m,
     };
     ends_m.into_iter().find_map(|end_m| {
-        let way = end_m - middle;
-        let towards = way.try_normalize()?;
+        let offset = end_m - middle;
+        let towards = offset.try_normalize()?;
         let hit = built.triangles.intersect_solid(middle, towards)?;
-        (hit.distance_m < way.length()).then_some(hit.object as usize)
+        (hit.distance_m < offset.length()).then_some(hit.object as usize)
     })
 }

@@ -21,7 +21,7 @@ use super::canvas::CanvasTexture;
 use super::lens::Lens;
 use super::pick::{self, Picked};
 use draw_brush::{
-    Drawn, are_alike, color, is_comparable, show_drawn, show_ring, show_way, stroke_count,
+    Drawn, are_alike, color, is_comparable, show_drawn, show_path, show_ring, stroke_count,
 };
 
 /// Distance of rays between two places of the pointer, points.
@@ -54,7 +54,7 @@ struct Going {
     pos: Pos2,
     /// The stroke that the pointer draws, with its last point; none while the pointer is beside the object.
     open: Option<(Recorder, StrokePoint)>,
-    /// Strokes that ended where the pointer left the object, and their ways.
+    /// Strokes that ended where the pointer left the object, and their paths.
     done: Vec<(description::Stroke, Vec<DVec3>)>,
 }
 
@@ -109,8 +109,8 @@ impl StrokeTool {
                 };
                 show_ring(&painter, &lens, &hit, radius_m, color);
             }
-            for way_m in self.going_on.iter().flat_map(Going::ways_m) {
-                show_way(&painter, &lens, way_m, color);
+            for path_m in self.going_on.iter().flat_map(Going::paths_m) {
+                show_path(&painter, &lens, path_m, color);
             }
         }
         show_drawn(ui, work, &mut self.drawn, area, canvas);
@@ -149,7 +149,7 @@ impl StrokeTool {
         for pos in places {
             if self.going_on.is_none() {
                 let from = self.before.replace(pos).unwrap_or(pos);
-                let begun = way(from, pos).find_map(|at| begin(work, world, at));
+                let begun = pointer_steps(from, pos).find_map(|at| begin(work, world, at));
                 self.going_on = begun;
             }
             if let Some(going) = &mut self.going_on {
@@ -208,7 +208,7 @@ impl World<'_> {
 impl Going {
     /// Follows the pointer: places between two passes are looked up too, since a surface is not straight between them.
     fn follow(&mut self, world: World, to: Pos2) {
-        for pos in way(self.pos, to) {
+        for pos in pointer_steps(self.pos, to) {
             self.take(world, world.stroke_point(pos));
         }
         self.pos = to;
@@ -239,22 +239,22 @@ impl Going {
     /// Ends the stroke that is open, not the drag.
     fn lift(&mut self) {
         if let Some((recorder, _)) = self.open.take() {
-            let way_m = recorder.way_m().to_vec();
+            let path_m = recorder.path_m().to_vec();
             self.done
-                .extend(recorder.finish().map(|stroke| (stroke, way_m)));
+                .extend(recorder.finish().map(|stroke| (stroke, path_m)));
         }
     }
 
     /// Paths of all strokes of this drag.
-    fn ways_m(&self) -> impl Iterator<Item = &[DVec3]> {
-        let done = self.done.iter().map(|(_, way_m)| way_m.as_slice());
-        let open = self.open.iter().map(|(recorder, _)| recorder.way_m());
+    fn paths_m(&self) -> impl Iterator<Item = &[DVec3]> {
+        let done = self.done.iter().map(|(_, path_m)| path_m.as_slice());
+        let open = self.open.iter().map(|(recorder, _)| recorder.path_m());
         done.chain(open)
     }
 }
 
 /// Places from one to another, close enough that a surface is straight between them; the first is left out.
-fn way(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
+fn pointer_steps(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
     let rays = ((to - from).length() / SPACING).ceil() as usize;
     let rays = rays.clamp(1, MOST_RAYS);
     (1..=rays).map(move |i| from.lerp(to, i as f32 / rays as f32))
@@ -308,13 +308,17 @@ fn finish(
         false => "Brush stroke",
     };
     let radius_m = going.settings.radius_m;
-    let mut ways_m: Vec<_> = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
+    let mut paths_m: Vec<_> = going
+        .done
+        .iter()
+        .map(|(_, path_m)| path_m.clone())
+        .collect();
     let (description, revision) = (work.document.description(), work.document.revision());
     let is_without = |frame: &&Arc<Frame>| makes_same_scene(&frame.built.description, description);
     let mut before: Vec<_> = clean.iter().filter(is_without).cloned().collect();
     if let Some(last) = last.filter(|last| last.revision == revision && !last.is_judged) {
         // All that the picture is without.
-        ways_m.extend(last.ways_m);
+        paths_m.extend(last.paths_m);
         before = last.before;
     }
     let done = work.document.apply(label, |description, selection| {
@@ -333,7 +337,7 @@ fn finish(
         return None;
     }
     Some(Drawn {
-        ways_m,
+        paths_m,
         revision: work.document.revision(),
         strokes: stroke_count(work.document.description()),
         tool: work.toolbox.tool,

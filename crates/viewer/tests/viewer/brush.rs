@@ -62,11 +62,11 @@ fn a_fast_drag_stays_on_a_bent_surface() {
     common::drag(&mut harness, from, from + vec2(180.0, 0.0), 1);
     let drawn = strokes(&harness);
     assert_eq!(drawn.len(), 1);
-    let way: Vec<DVec3> = drawn[0].points_m.iter().map(|&p| p.into()).collect();
-    assert!(way.len() > 4, "{} points", way.len());
+    let path: Vec<DVec3> = drawn[0].points_m.iter().map(|&p| p.into()).collect();
+    assert!(path.len() > 4, "{} points", path.len());
     // Straight pieces stray from the sphere by the brush's own tolerance, a twentieth of its radius; one straight line
     // would stray by half of the ball's.
-    for pair in way.windows(2) {
+    for pair in path.windows(2) {
         let height_m = (0.5 * (pair[0] + pair[1])).length();
         let low_m = BALL_RADIUS_M - height_m;
         assert!(

@@ -98,9 +98,9 @@ fn delete_and_undo_take_the_lone_point_first() {
     let before = description(&harness);
     common::key(&mut harness, Key::Enter);
     let elsewhere = places(&harness)[1] - vec2(0.0, 30.0);
-    let ways: [fn(&mut Harness<'static, Viewer>); 2] =
+    let removals: [fn(&mut Harness<'static, Viewer>); 2] =
         [|harness| common::key(harness, Key::Delete), common::undo];
-    for take in ways {
+    for take in removals {
         common::click_at(&mut harness, elsewhere);
         take(&mut harness);
         assert_eq!(*description(&harness), *before);
