@@ -60,7 +60,7 @@ pub use place::LayerPlaces;
 pub use ranges::LARGEST_SEED;
 pub use render::Render;
 pub use scratches::{
-    Amount, Around, Brushed, Laid, Layer, Listed, Pattern, Scratches, Standing, standings,
+    Amount, Brushed, Laid, Layer, Listed, Pattern, PatternAxis, Scratches, Standing, standings,
 };
 pub use sections::{SECTIONS, section};
 pub use shapes::Shape;

@@ -8,7 +8,6 @@
 //! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice. There a GPU's picture is
 //! a task of the page, which the slice begins and nobody waits for.
 
-mod adding;
 mod backend;
 pub(crate) mod bands;
 mod build;
@@ -16,6 +15,7 @@ mod builder;
 #[cfg(not(target_arch = "wasm32"))]
 mod caught;
 mod cpu;
+mod done_batches;
 mod drafts;
 mod event;
 mod frame;

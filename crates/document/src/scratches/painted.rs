@@ -1,6 +1,6 @@
 //! A layer whose scratches lie along the strokes of a brush.
 //!
-//! Scratches are strewn evenly: each has its own share of the stroke, in which its middle lies anywhere. So a stroke that is
+//! Scratches are scattered evenly: each has its own share of the stroke, in which its middle lies anywhere. So a stroke that is
 //! still being drawn keeps the scratches it has.
 
 use std::f64::consts::TAU;

@@ -302,7 +302,7 @@ fn a_ring_that_is_cut_is_open_and_in_one_piece() {
     let Layer::Laid(mut laid) = strewn(40, 1) else {
         unreachable!()
     };
-    laid.pattern = Pattern::Circular(Around::default());
+    laid.pattern = Pattern::Circular(PatternAxis::default());
     laid.length_m.mean = 10.0;
     let layer_with = |strokes| vec![layer(Layer::Laid(laid.clone()), strokes)];
     let whole = built(DISK, layer_with(vec![]));

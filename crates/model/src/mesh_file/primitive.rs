@@ -15,7 +15,7 @@ use crate::flaw::Flaw;
 use crate::surface::{Surface, Vertex};
 
 /// A primitive as the file has it, before missing attributes are computed.
-pub(super) struct Rough {
+pub(super) struct RawPrimitive {
     pub surface: Surface,
     has_normals: bool,
     has_tangents: bool,
@@ -30,7 +30,7 @@ pub(super) fn read(
     primitive: &Primitive,
     buffers: &Buffers,
     motion: &Motion,
-) -> Result<Option<Rough>, Flaw> {
+) -> Result<Option<RawPrimitive>, Flaw> {
     if matches!(
         primitive.mode(),
         Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
@@ -91,7 +91,7 @@ pub(super) fn read(
         })
         .collect();
     motion.apply(&attributes, &mut vertices)?;
-    Ok(Some(Rough {
+    Ok(Some(RawPrimitive {
         surface: Surface {
             triangles: attributes.triangles(count)?,
             vertices,
@@ -103,7 +103,7 @@ pub(super) fn read(
     }))
 }
 
-impl Rough {
+impl RawPrimitive {
     /// Adds normals, and tangents where normal maps or brushed metal need them. `turned` counts triangles that are wound against
     /// their normals in the file.
     pub(super) fn finished(self, primitive: &Primitive, turned: &mut usize) -> Surface {

@@ -9,8 +9,8 @@ use hairline_image::Image;
 use web_time::Instant;
 
 use super::Backend;
-use super::adding::Adding;
 use super::bands::{BandSize, Bands, IN_TURN, options, prepared};
+use super::done_batches::DoneBatches;
 use super::drafts::Drafts;
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
@@ -28,8 +28,8 @@ const REFRESH: Duration = Duration::from_millis(600);
 pub(super) struct CpuStepRenderer {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<Last>,
-    begun: Option<Begun>,
-    adding: Adding,
+    begun: Option<UnfinishedPicture>,
+    done_batches: DoneBatches,
     drafts: Drafts,
     band_size: BandSize,
     /// Interval between pictures of an unfinished one; none are shown where it is none, as they take time of their own.
@@ -48,7 +48,7 @@ struct Last {
 }
 
 /// A picture that is not done yet.
-struct Begun {
+struct UnfinishedPicture {
     order: Order,
     step: Step,
     bands: Bands,
@@ -71,7 +71,7 @@ impl CpuStepRenderer {
             scene: None,
             last: None,
             begun: None,
-            adding: Adding::default(),
+            done_batches: DoneBatches::default(),
             drafts: Drafts::default(),
             band_size,
             refresh: band_size.breaks_off.then_some(REFRESH),
@@ -167,7 +167,7 @@ impl StepRenderer for CpuStepRenderer {
             shown_last = Instant::now();
         };
         if !is_done {
-            self.begun = Some(Begun {
+            self.begun = Some(UnfinishedPicture {
                 order: order.clone(),
                 step: *step,
                 bands,
@@ -176,7 +176,7 @@ impl StepRenderer for CpuStepRenderer {
         }
         let (mut image, samples) = match step.batch {
             None => (bands.image, step.samples),
-            Some(batch) => pool.install(|| self.adding.add(order, batch, bands.image)),
+            Some(batch) => pool.install(|| self.done_batches.add(order, batch, bands.image)),
         };
         image.traced = None;
         let last = Last {

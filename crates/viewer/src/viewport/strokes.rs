@@ -34,7 +34,7 @@ const MOST_RAYS: usize = 2000;
 /// The brush in the hand.
 #[derive(Default)]
 pub(super) struct StrokeTool {
-    going_on: Option<Going>,
+    going_on: Option<StrokeDrag>,
     /// Last position of the pointer in a drag that has met no object yet.
     before: Option<Pos2>,
     /// Escape was pressed; nothing is drawn until the button is up.
@@ -46,7 +46,7 @@ pub(super) struct StrokeTool {
 }
 
 /// State of one drag. It stays on the object that it began on, and is one step.
-struct Going {
+struct StrokeDrag {
     object: usize,
     settings: BrushSettings,
     world_from_object: DMat4,
@@ -109,7 +109,7 @@ impl StrokeTool {
                 };
                 show_ring(&painter, &lens, &hit, radius_m, color);
             }
-            for path_m in self.going_on.iter().flat_map(Going::paths_m) {
+            for path_m in self.going_on.iter().flat_map(StrokeDrag::paths_m) {
                 show_path(&painter, &lens, path_m, color);
             }
         }
@@ -205,7 +205,7 @@ impl World<'_> {
     }
 }
 
-impl Going {
+impl StrokeDrag {
     /// Follows the pointer: places between two passes are looked up too, since a surface is not straight between them.
     fn follow(&mut self, world: World, to: Pos2) {
         for pos in pointer_steps(self.pos, to) {
@@ -260,7 +260,7 @@ fn pointer_steps(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
     (1..=rays).map(move |i| from.lerp(to, i as f32 / rays as f32))
 }
 
-fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
+fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<StrokeDrag> {
     let place = world.stroke_point(pos)?;
     let hit = place.hit;
     let object = work.document.description().objects.get(hit.object)?;
@@ -269,7 +269,7 @@ fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
         erase: work.toolbox.tool == Tool::Eraser,
         ..settings(work, &hit)
     };
-    let mut going = Going {
+    let mut going = StrokeDrag {
         object: hit.object,
         settings,
         world_from_object,
@@ -295,7 +295,7 @@ fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
 /// All strokes of the drag as one step, after those of `last`, which no picture may show yet. `clean` may be pictures without them.
 fn finish(
     work: &mut Workspace,
-    mut going: Going,
+    mut going: StrokeDrag,
     last: Option<Drawn>,
     clean: &[Arc<Frame>],
 ) -> Option<Drawn> {
