@@ -7,9 +7,9 @@ use hairline_document::Ruler;
 use hairline_editor::quantity::Unit;
 use hairline_scene::{Mesh, Object, Scratch};
 
-use crate::engine::Built;
 use crate::jobs::Job;
 use crate::platform::HAS_THREADS;
+use crate::progressive::Built;
 
 /// Measured things; no part of the scene.
 #[derive(Default)]

@@ -14,9 +14,9 @@ use egui::ColorImage;
 use hairline_document::Description;
 use hairline_editor::Document;
 
-use crate::engine::{Frame, Picture, View};
 use crate::notices::Notices;
 use crate::platform::HAS_DISK;
+use crate::progressive::{Frame, Picture, View};
 use crate::seen::makes_same_scene;
 use crate::viewport::canvas::CanvasTexture;
 

@@ -227,7 +227,7 @@ impl Viewer {
         self.not_built = None;
         let work = &mut self.work;
         work.document.replace(document);
-        work.engine.forget_scene();
+        work.renderer.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
         let canvas = &self.viewport.canvas;

@@ -129,7 +129,7 @@ impl Viewer {
                 self.work.settings.set_high_contrast(is_high);
                 crate::style::set(ctx, is_high);
             }
-            Command::Pause => self.work.engine.set_paused(!self.work.engine.is_paused()),
+            Command::Pause => self.work.renderer.set_paused(!self.work.renderer.is_paused()),
             Command::WholePicture => self.work.region = None,
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
@@ -189,7 +189,7 @@ impl Viewer {
 
     fn take_snapshot(&mut self) {
         let work = &mut self.work;
-        if let Some(view) = work.engine.view() {
+        if let Some(view) = work.renderer.view() {
             let canvas = self.viewport.canvas.another();
             work.snapshots
                 .take(&work.document, view, canvas, &mut work.notices);

@@ -13,8 +13,8 @@ use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
 use super::figures::Figures;
-use crate::engine::{Built, Wake, bands};
 use crate::jobs::Stop;
+use crate::progressive::{Built, Wake, bands};
 
 /// Request for a comparison.
 #[derive(Clone)]

@@ -13,8 +13,8 @@ use hairline_image::{
 use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
-use crate::engine::{Backend, Built, ViewBuilder, Wake, bands};
 use crate::jobs::Stop;
+use crate::progressive::{Backend, Built, ViewBuilder, Wake, bands};
 
 /// Number of pictures, and the movement of the camera between them.
 #[derive(Clone, Copy, Debug, PartialEq)]

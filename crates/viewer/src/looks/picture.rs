@@ -8,8 +8,8 @@ use hairline_image::{Display, FilePath, png};
 use hairline_scene::Transport;
 use web_time::Instant;
 
-use crate::engine::{ViewBuilder, bands};
 use crate::jobs::Stop;
+use crate::progressive::{ViewBuilder, bands};
 use crate::thumbnail::HEIGHT;
 
 /// A picture with what it is of.

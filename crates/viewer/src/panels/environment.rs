@@ -63,7 +63,7 @@ fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
 
 /// Describes the suns that were parted from the map of the picture.
 fn suns(work: &Workspace) -> Option<String> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     let suns = built.scene.environment.as_ref()?.suns();
     let size = |sun: &Light| {
         let (center_m, radius_m) = sun.bounding_sphere();

@@ -44,7 +44,7 @@ pub(crate) fn show(
                     sheet = (!is_open).then_some(which);
                 }
             }
-            let words = RichText::new(status::summary(&work.engine, viewport)).size(TEXT - 1.0);
+            let words = RichText::new(status::summary(&work.renderer, viewport)).size(TEXT - 1.0);
             ui.add(Label::new(words).truncate());
         });
     });

@@ -13,8 +13,8 @@ use hairline_index::scratch_index::{FACING_MIN_COS, REACH_STD};
 use hairline_scene::{CameraFrame, Scene};
 
 use super::false_color;
-use crate::engine::{Built, SHADOW_SAMPLES, View, bands};
 use crate::jobs::Job;
+use crate::progressive::{Built, SHADOW_SAMPLES, View, bands};
 
 /// A pixel, and the surface under it.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@ use egui::{Align2, Color32, FontId, Rect, TextureId, Ui, pos2, vec2};
 use hairline_editor::Document;
 
 use crate::compare::divider;
-use crate::engine::{Frame, View};
+use crate::progressive::{Frame, View};
 use crate::viewport::Area;
 use crate::viewport::canvas::{BELOW_BADGES, CanvasTexture};
 

@@ -13,8 +13,8 @@ use hairline_editor::actions::layers;
 use hairline_scene::{Scratch, Segment};
 use web_time::Instant;
 
-use crate::engine::Built;
 use crate::overlays::Overlay;
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -120,7 +120,7 @@ fn wanted(work: &Workspace) -> Vec<usize> {
 /// wanted.
 pub(super) fn show(ui: &Ui, fields: &mut Vec<LineField>, work: &Workspace, area: &Area) {
     let wanted = wanted(work);
-    let built = work.engine.built().filter(|_| !wanted.is_empty());
+    let built = work.renderer.built().filter(|_| !wanted.is_empty());
     let Some(built) = built else {
         fields.clear();
         return;

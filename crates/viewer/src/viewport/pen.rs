@@ -8,7 +8,7 @@ use hairline_scene::Segment;
 
 use super::lens::{Lens, share_of_nearest};
 use super::{Area, ink, pick};
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::tools::{BEGIN_LINE, Tool};
 use crate::workspace::Workspace;
 
@@ -242,7 +242,7 @@ impl PenTool {
         };
         if let (None, None, Some(points)) = (self.open, begun, &points)
             && points.object == hit.object
-            && let Some(built) = work.engine.built()
+            && let Some(built) = work.renderer.built()
             && let Some(point) = points.insertion_place(&built, &lens, pos)
             && pen::curve(&description.scratches[points.layer]).is_some()
         {
@@ -331,7 +331,7 @@ impl PenTool {
         let Some(points) = points else {
             return;
         };
-        if let Some(built) = work.engine.built() {
+        if let Some(built) = work.renderer.built() {
             for polyline in polylines(&built, &points, &lens) {
                 ink::line(&painter, polyline, 1.0, LINE);
             }

@@ -3,7 +3,7 @@
 use egui::Pos2;
 use glam::DVec3;
 
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::workspace::Workspace;
 
 use super::{Area, lens::Lens};
@@ -23,7 +23,7 @@ pub(super) struct Picked {
 
 /// The nearest surface under `pos`, of the newest scene that was built.
 pub(super) fn surface(work: &Workspace, area: &Area, pos: Pos2) -> Option<Picked> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     let lens = Lens::new(&work.camera(), area);
     pick(&built, &lens, pos)
 }

@@ -9,7 +9,7 @@ use hairline_editor::{DragKey, Selection};
 
 use super::pick::Picked;
 use super::{Area, Viewport, pick};
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -52,7 +52,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
     // The whole drag starts from the light's first place, so that its distance does not shrink from one obstacle to the next.
     let before = work.document.before_drag();
     let start = before.unwrap_or(work.document.description()).lights.get(i);
-    let (Some(start), Some(built)) = (start.cloned(), work.engine.built()) else {
+    let (Some(start), Some(built)) = (start.cloned(), work.renderer.built()) else {
         return;
     };
     let mut light = start;

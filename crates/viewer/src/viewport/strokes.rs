@@ -10,8 +10,8 @@ use hairline_document::description;
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 
-use crate::engine::{Built, Frame};
 use crate::overlays::Overlay;
+use crate::progressive::{Built, Frame};
 use crate::seen::makes_same_scene;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -75,7 +75,7 @@ impl StrokeTool {
         response: &Response,
         (is_in_hand, canvas): (bool, &CanvasTexture),
     ) {
-        if let Some(frame) = work.engine.latest().filter(|frame| is_comparable(frame)) {
+        if let Some(frame) = work.renderer.latest().filter(|frame| is_comparable(frame)) {
             let built = &frame.built;
             (self.clean).retain(|it| Arc::ptr_eq(&it.built, built) && !are_alike(it, &frame));
             self.clean.push(frame);
@@ -83,7 +83,7 @@ impl StrokeTool {
         let is_held = is_in_hand
             && response.is_pointer_button_down_on()
             && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-        if let Some(built) = work.engine.built()
+        if let Some(built) = work.renderer.built()
             && is_in_hand
         {
             let lens = Lens::new(&work.camera(), area);

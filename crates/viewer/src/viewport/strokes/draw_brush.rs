@@ -7,7 +7,7 @@ use glam::DVec3;
 use hairline_document::Description;
 use hairline_editor::shown::FAINT;
 
-use crate::engine::Frame;
+use crate::progressive::Frame;
 use crate::tools::Tool;
 use crate::viewport::canvas::CanvasTexture;
 use crate::viewport::lens::Lens;
@@ -35,7 +35,7 @@ pub(super) struct Drawn {
 impl Drawn {
     /// Whether no picture has them.
     pub fn is_awaited(&self, work: &Workspace) -> bool {
-        let shown = work.engine.latest().map(|frame| frame.built.revision);
+        let shown = work.renderer.latest().map(|frame| frame.built.revision);
         shown.is_some_and(|shown| shown < self.revision)
     }
 
@@ -45,8 +45,8 @@ impl Drawn {
 
     /// Compares a picture that has the strokes with one alike without them; where there was none, judges by what a whole one shows in all.
     fn judge(&mut self, work: &mut Workspace, lens: &Lens, area: &Area, canvas: &CanvasTexture) {
-        let view = work.engine.view();
-        let after = work.engine.latest().filter(|frame| {
+        let view = work.renderer.view();
+        let after = work.renderer.latest().filter(|frame| {
             frame.built.revision >= self.revision
                 && is_comparable(frame)
                 && Some(frame.view) == view
