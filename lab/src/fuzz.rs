@@ -5,12 +5,12 @@
 //! and memory, and the files that it leaves, cannot be judged.
 
 mod case;
-mod found;
 mod judge;
 mod model;
 mod mutate;
 mod originals;
 mod packed;
+mod regressions;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -93,7 +93,7 @@ impl Fuzz {
             }
         }
         if self.kind.is_none() {
-            found::all().into_par_iter().try_for_each(check)?;
+            regressions::all().into_par_iter().try_for_each(check)?;
         }
         let numbers = self.from..self.from + self.cases;
         numbers.into_par_iter().map(case).try_for_each(check)?;

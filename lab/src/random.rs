@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
-use conformance::random::{Judged, judge, scene_file};
+use conformance::random::{LayerDifference, judge, scene_file};
 use hairline_image::Layers;
 
 /// Options of `random`.
@@ -47,7 +47,7 @@ impl Random {
     /// Renders, judges and prints.
     pub fn run(self) -> Result<()> {
         std::fs::create_dir_all(&self.folder)?;
-        let mut all: Vec<(u64, Judged)> = Vec::new();
+        let mut all: Vec<(u64, LayerDifference)> = Vec::new();
         let (mut judged, mut off) = (0, 0);
         for seed in self.from..self.from + self.seeds {
             let Some(layers) = self.measure(seed)? else {
@@ -79,7 +79,7 @@ impl Random {
     }
 
     /// Judges one seed's layers.
-    fn measure(&self, seed: u64) -> Result<Option<Vec<Judged>>> {
+    fn measure(&self, seed: u64) -> Result<Option<Vec<LayerDifference>>> {
         let file = |name: &str| self.folder.join(format!("{seed}{name}"));
         let (scene, right, picture) = (file(".toml"), file("-ref.exr"), file(".exr"));
         std::fs::write(&scene, scene_file(seed, [96, 54]))?;

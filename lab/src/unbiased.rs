@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use conformance::unbiased::{
-    Found, LAYERS, SCENES, brighter, expected, found, inside, rendered, scene, without,
+    LAYERS, LayerError, SCENES, brighter, expected, inside, layer_error, rendered, scene, without,
 };
 use hairline_image::metrics::Verdict;
 use hairline_image::output::write_atomically;
@@ -97,7 +97,7 @@ impl LayerFigures {
 }
 
 impl SampleFigures {
-    fn new(samples: u32, found: &Found) -> Self {
+    fn new(samples: u32, found: &LayerError) -> Self {
         Self {
             samples,
             off: found.off,
@@ -109,7 +109,7 @@ impl SampleFigures {
     }
 }
 
-fn word(found: &Found) -> &'static str {
+fn word(found: &LayerError) -> &'static str {
     match found.z.verdict {
         Verdict::ExplainedByNoise => "noise",
         Verdict::MoreThanNoise => "**more**",
@@ -172,7 +172,7 @@ impl Unbiased {
             _ => Some(picture(&without(right, occluders), wrong_samples, shadows)?),
         };
         let layers = LAYERS.map(|layer| {
-            let of = |image| found(image, &expected, &open, layer, &inside);
+            let of = |image| layer_error(image, &expected, &open, layer, &inside);
             let sum = |values: Vec<[f32; 3]>| -> f64 {
                 let seen = values.iter().zip(&inside).filter(|(_, inside)| **inside);
                 seen.flat_map(|(rgb, _)| rgb).map(|c| f64::from(*c)).sum()

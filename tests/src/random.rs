@@ -249,7 +249,7 @@ fn grating(draw: &mut Draw, file: &mut String) {
 
 /// How far a layer is from the reference's, away from outlines.
 #[derive(Clone, Copy, Debug)]
-pub struct Judged {
+pub struct LayerDifference {
     /// The layer.
     pub layer: Layer,
     /// Share of the beauty's light that the layer has.
@@ -260,7 +260,7 @@ pub struct Judged {
     pub rms: [f64; 2],
 }
 
-impl Judged {
+impl LayerDifference {
     /// How far it is off: 1 where the mean is off by 5 % or the rms by 10 %, beyond two standard errors.
     pub fn off(&self) -> f64 {
         let mean = ((self.mean[0] - 1.0).abs() - 2.0 * self.mean[1]).max(0.0) / 0.05;
@@ -273,7 +273,7 @@ impl Judged {
 ///
 /// # Panics
 /// Where the pictures differ in size, or the reference has no depth or noise.
-pub fn judge(found: &Layers, right: &Layers) -> Vec<Judged> {
+pub fn judge(found: &Layers, right: &Layers) -> Vec<LayerDifference> {
     assert_eq!(found.size_px, right.size_px);
     let [width, height] = right.size_px;
     let depth = right.get(Layer::Depth).expect("depth");
@@ -329,7 +329,7 @@ pub fn judge(found: &Layers, right: &Layers) -> Vec<Judged> {
                 sum_variance += spread * spread;
             }
             let share = sum(layer) / all;
-            (share > LEAST_SHARE && square > 0.0).then(|| Judged {
+            (share > LEAST_SHARE && square > 0.0).then(|| LayerDifference {
                 layer,
                 share,
                 mean: [sums[0] / sums[1], sum_variance.sqrt() / sums[1]],

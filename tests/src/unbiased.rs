@@ -96,7 +96,7 @@ pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Imag
     let parts = SceneIndex::new(scene);
     let mut settings = vec![(false, 0), (true, 0), (true, bounces)];
     settings.dedup();
-    let way = |(shadows, bounces)| {
+    let start = |(shadows, bounces)| {
         let settings = Settings {
             mask: MASK,
             shadows,
@@ -107,7 +107,7 @@ pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Imag
         let image = integrator.start();
         (integrator, image)
     };
-    let mut ways: Vec<_> = settings.into_iter().map(way).collect();
+    let mut runs: Vec<_> = settings.into_iter().map(start).collect();
     let mut sums = LAYERS.map(|_| vec![[Sums::default(); 3]; open.pixel_count()]);
     let batches = samples.div_ceil(BATCH_SAMPLES);
     for batch in 0..batches {
@@ -117,15 +117,15 @@ pub fn expected(scene: &Scene, open: &Image, bounces: u32, samples: u32) -> Imag
             let _ = integrator.run(image, samples, &|_| ControlFlow::Continue(()));
             (before, LAYERS.map(|layer| image.layer(layer)))
         };
-        let added: Vec<_> = ways.iter_mut().map(add).collect();
-        // Without bounces the last way is that of shadows alone.
-        let ways = [&added[0], &added[1], &added[added.len() - 1]];
+        let added: Vec<_> = runs.iter_mut().map(add).collect();
+        // Without bounces the last run is that of shadows alone.
+        let runs = [&added[0], &added[1], &added[added.len() - 1]];
         // The image has the mean of all batches.
         let n = f64::from(batch);
         for (l, sums) in sums.iter_mut().enumerate() {
             for (i, sums) in sums.iter_mut().enumerate() {
                 for (c, sums) in sums.iter_mut().enumerate() {
-                    sums.add(ways.map(|(before, after)| {
+                    sums.add(runs.map(|(before, after)| {
                         f64::from(after[l][i][c]) * (n + 1.0) - f64::from(before[l][i][c]) * n
                     }));
                 }
@@ -190,7 +190,7 @@ impl Sums {
 
 /// Error of a layer.
 #[derive(Clone, Copy, Debug)]
-pub struct Found {
+pub struct LayerError {
     /// The error of the picture's mean, over the mean without shadows.
     pub off: f64,
     /// One standard deviation of that, by how much the pixels' errors scatter.
@@ -229,13 +229,13 @@ const FILTER_REACH_PX: i32 = 3;
 ///
 /// # Panics
 /// Where none of the two knows its noise.
-pub fn found(
+pub fn layer_error(
     image: &Image,
     expected: &Image,
     open: &Image,
     layer: Layer,
     inside: &[bool],
-) -> Found {
+) -> LayerError {
     let (a, b) = (Layers::from(image), Layers::from(expected));
     let [a, b] = [&a, &b].map(|held| held.estimate(layer).expect("all layers are there"));
     let pixels = || (0..inside.len()).filter(|i| inside[*i]);
@@ -249,7 +249,7 @@ pub fn found(
     let open = open.layer(layer);
     let all: f64 = pixels().map(|i| sum(open[i])).sum();
     let count = pixels().count() as f64;
-    Found {
+    LayerError {
         off: errors().sum::<f64>() / all,
         off_std: squares.sqrt() / all,
         rms: (squares - noise).max(0.0).sqrt() * count.sqrt() / all,

@@ -14,7 +14,7 @@ use hairline_console::{Backend, EXIT_CODES, View, tell};
 use hairline_document::{Description, probe};
 use hairline_render::failure::Failure;
 use hairline_viewer::window::{Error, Renderer};
-use hairline_viewer::{Options, engine, open};
+use hairline_viewer::{Options, open, progressive};
 
 /// Edit a scene in a window: scratches, lights and materials, live.
 #[derive(Debug, Parser)]
@@ -59,7 +59,7 @@ fn run(arguments: &View) -> Result<(), Failure> {
     let options = Options {
         scene: arguments.scene.clone(),
         built_in: hairline_console::BUILT_IN,
-        backend: engine::Backend::Cpu,
+        backend: progressive::Backend::Cpu,
         state_dir: state_dir.or_else(hairline_viewer::state_dir),
         native_dialogs: !arguments.plain_dialogs,
         transport: hairline_console::transport(arguments.shadows, arguments.bounces)?,

@@ -4,13 +4,13 @@ mod curves;
 mod error;
 mod figures;
 mod machine;
+mod methods;
 mod stage;
 mod table;
 mod talk;
 mod text;
 mod thoroughness;
 mod timing;
-mod way;
 mod worker;
 
 use std::path::{Path, PathBuf};

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use hairline_document::{DEFAULT_TRANSPORT, Description};
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Renderer, page};
 use js_sys::{Array, Object, Reflect, Uint8Array};
 use wasm_bindgen::JsValue;
@@ -89,8 +89,8 @@ impl Page {
     /// `messages`. Nothing while the viewer itself works.
     pub fn state(&self) -> Option<Object> {
         self.0.read(|viewer| {
-            let (engine, document) = (viewer.engine(), viewer.document());
-            let frame = engine.latest();
+            let (renderer, document) = (viewer.renderer(), viewer.document());
+            let frame = renderer.latest();
             let camera = viewer.camera();
             let description = document.description();
             let state = Object::new();
@@ -100,10 +100,10 @@ impl Page {
             };
             let numbers = |of: [f64; 3]| of.map(JsValue::from).into_iter().collect::<Array>();
             let is_final = frame.as_ref().is_some_and(|f| f.painted.is_final);
-            set("backend", engine.backend().label().into());
+            set("backend", renderer.backend().label().into());
             set("pictures", frame.map_or(0.0, |f| f.number as f64).into());
             set("finished", is_final.into());
-            set("building", engine.is_building().into());
+            set("building", renderer.is_building().into());
             set("camera", numbers(camera.position_m).into());
             set("target", numbers(camera.target_m).into());
             set("objects", (description.objects.len() as f64).into());

@@ -1,9 +1,9 @@
 //! Builds scenes one after the other and keeps unchanged parts, as an editor needs it.
 
-mod coats;
 mod gratings;
 mod kept;
 mod parts;
+mod scratch_layers;
 mod textures;
 
 use std::fmt;

@@ -17,7 +17,7 @@ use hairline_sky::BuiltInMap;
 
 use crate::description::references::find;
 use crate::description::{
-    self, Around, Description, GratingTheory, GroovePattern, MaterialKind, MetalColor, UvAxis,
+    self, Description, GratingTheory, GroovePattern, MaterialKind, MetalColor, PatternAxis, UvAxis,
 };
 use crate::error::Error;
 
@@ -152,7 +152,7 @@ impl description::Grating {
             let direction = world_from_object.transform_vector3(direction.into());
             direction.normalize_or_zero()
         };
-        let around = |around: &Around, bearing| {
+        let around = |around: &PatternAxis, bearing| {
             let field = GrooveField::Around {
                 axis: direction(around.axis),
                 center_m: world_from_object.transform_point3(around.center_m.into()),

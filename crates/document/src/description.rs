@@ -50,7 +50,7 @@ pub use engraved::{Engraved, Line};
 pub use environment::{Environment, Map};
 pub use files::FileUse;
 pub use gratings::{Grating, GratingTheory, GroovePattern, UvAxis};
-pub use laid::{Amount, Around, Brushed, Laid, Listed, Pattern};
+pub use laid::{Amount, Brushed, Laid, Listed, Pattern, PatternAxis};
 pub use light_kind::{LightKind, SUN_DEG};
 pub use lights::{Cone, Light};
 pub use looks::Look;

@@ -27,7 +27,7 @@ struct FilePosition {
 }
 
 impl Error {
-    /// `key` is the way to the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence. Control
+    /// `key` is the path of the value, such as `light[1].radius_m`; `found` and `right` are halves of a sentence. Control
     /// characters in them are escaped, and what is very long is cut: parts of them come from files.
     pub fn new(key: impl Into<String>, found: impl Into<String>, right: impl Into<String>) -> Self {
         Self {
@@ -94,7 +94,7 @@ impl Error {
         self.place.as_ref().and_then(|place| place.line)
     }
 
-    /// The way to the value, such as `light[1].radius_m` (tables of one name are counted from 0).
+    /// The path of the value, such as `light[1].radius_m` (tables of one name are counted from 0).
     pub fn key(&self) -> &str {
         &self.key
     }

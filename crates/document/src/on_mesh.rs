@@ -42,13 +42,13 @@ pub fn lay_on_mesh(
         let key = format!("scratches[{i}]");
         refuse_parts(layer, &key)?;
         let picture = |name: &str, file: &Option<PathBuf>| {
-            let way = format!("{key}.where.{name}");
+            let key_path = format!("{key}.where.{name}");
             let read = file.as_ref();
             let known = read.map(|file| {
                 let found = format!("found the file \"{}\"", file.display());
                 let right = "must be the name of a picture in memory";
                 let picture = arrays.picture(file).cloned();
-                picture.ok_or_else(|| Error::new(way, found, right))
+                picture.ok_or_else(|| Error::new(key_path, found, right))
             });
             known.transpose()
         };

@@ -303,7 +303,7 @@ impl Lamps<'_> {
 
 /// Whether a triangle lies between a point of a surface and a lamp: all are tried, for a few lamps.
 fn is_hidden(meshes: &[&Mesh], from_m: DVec3, lamp_m: DVec3) -> bool {
-    let way = lamp_m - from_m;
+    let to_lamp = lamp_m - from_m;
     // The ends are left out: the surface itself lies there.
     let (first, last) = (1e-3, 1.0 - 1e-3);
     meshes.iter().any(|mesh| {
@@ -311,13 +311,13 @@ fn is_hidden(meshes: &[&Mesh], from_m: DVec3, lamp_m: DVec3) -> bool {
             let [a, b, c] = corners.map(|corner| mesh.positions_m[corner as usize].as_dvec3());
             let (ab, ac, to) = (b - a, c - a, from_m - a);
             // T. Möller and B. Trumbore, 1997, as `intersect_triangle` of hairline-index, which depends on this crate.
-            let p = way.cross(ac);
+            let p = to_lamp.cross(ac);
             let det = ab.dot(p);
             if det == 0.0 {
                 return false;
             }
             let q = to.cross(ab);
-            let [u, v, t] = [to.dot(p), way.dot(q), ac.dot(q)].map(|it| it / det);
+            let [u, v, t] = [to.dot(p), to_lamp.dot(q), ac.dot(q)].map(|it| it / det);
             u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (first..last).contains(&t)
         })
     })

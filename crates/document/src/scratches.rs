@@ -23,7 +23,7 @@ mod painted;
 mod place;
 mod random;
 mod ruler;
-mod strewn;
+mod scattered;
 mod swirl;
 mod walk;
 mod written_list;
@@ -51,7 +51,7 @@ use place::GroundPlaces;
 pub(crate) use place::PlaceInputs;
 use random::Stream;
 pub use ruler::Ruler;
-use strewn::Strewn;
+use scattered::Scattered;
 use walk::{Course, Walker};
 pub use written_list::write_scratches;
 
@@ -229,7 +229,7 @@ impl<'a> Plan<'a> {
                     Amount::Count(count) => count,
                     Amount::DensityPerM2(density) => (density * ground.area_m2()).round() as u64,
                 };
-                let strewn = Strewn {
+                let strewn = Scattered {
                     laid,
                     number: table.number,
                     ground,

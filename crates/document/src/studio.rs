@@ -159,8 +159,8 @@ impl PhotoSet {
     /// Right of, behind and above the set, in its radii.
     fn world_point_m(&self, studio: &Studio, place: DVec3) -> DVec3 {
         let turn = glam::DQuat::from_axis_angle(self.up, studio.rotation_deg.to_radians());
-        let way = place.x * self.right + place.y * self.ahead + place.z * self.up;
-        self.base_m + self.radius_m * (turn * way)
+        let offset = place.x * self.right + place.y * self.ahead + place.z * self.up;
+        self.base_m + self.radius_m * (turn * offset)
     }
 
     pub(crate) fn soft_box(&self, studio: &Studio, soft_box: &SoftBox) -> Light {

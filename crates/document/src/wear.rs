@@ -4,7 +4,7 @@
 //! so an object that becomes more worn keeps its history.
 
 use crate::Description;
-use crate::description::{Amount, Around, Distribution, Laid, Layer, Pattern, Scratches};
+use crate::description::{Amount, Distribution, Laid, Layer, Pattern, PatternAxis, Scratches};
 
 hairline_image::listed! {
     /// Wear or finish of an object.
@@ -103,9 +103,9 @@ impl WearKind {
                 (pattern, [(0.12, 0.8), (3.0, 0.15), (120.0, 0.12)])
             }
             Self::Rings => {
-                let pattern = Pattern::Circular(Around {
+                let pattern = Pattern::Circular(PatternAxis {
                     jitter_deg: 6.0,
-                    ..Around::default()
+                    ..PatternAxis::default()
                 });
                 (pattern, [(0.3, 0.5), (5.0, 0.1), (130.0, 0.1)])
             }

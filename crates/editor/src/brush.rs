@@ -66,7 +66,7 @@ pub struct Recorder {
     object_from_world: DMat4,
     /// The largest factor from the object's lengths to the world's.
     scale: f64,
-    way_m: Vec<DVec3>,
+    path_m: Vec<DVec3>,
 }
 
 impl Recorder {
@@ -86,7 +86,7 @@ impl Recorder {
             settings,
             object_from_world: world_from_object.inverse(),
             scale,
-            way_m: Vec::new(),
+            path_m: Vec::new(),
         }
     }
 
@@ -98,8 +98,8 @@ impl Recorder {
         if !point_m.is_finite() {
             return false;
         }
-        let Some(&last) = self.way_m.last() else {
-            self.way_m.push(point_m);
+        let Some(&last) = self.path_m.last() else {
+            self.path_m.push(point_m);
             return true;
         };
         let radius_m = self.settings.radius_m;
@@ -112,14 +112,14 @@ impl Recorder {
         let parts = if parts < 4096.0 { parts as u32 } else { 1 };
         for i in 1..=parts {
             let t = f64::from(i) / f64::from(parts);
-            self.way_m.push(last.lerp(point_m, t));
+            self.path_m.push(last.lerp(point_m, t));
         }
         true
     }
 
     /// Path of the stroke until now, in the world, for a preview.
-    pub fn way_m(&self) -> &[DVec3] {
-        &self.way_m
+    pub fn path_m(&self) -> &[DVec3] {
+        &self.path_m
     }
 
     /// The stroke, thinned, in the object's frame; none without a point.
@@ -132,13 +132,13 @@ impl Recorder {
             erase,
         } = self.settings;
         let mut straying_m = STRAYING * radius_m;
-        let mut way = thinned(&self.way_m, straying_m);
-        while way.len() > *STROKE_POINTS.end() {
+        let mut path = thinned(&self.path_m, straying_m);
+        while path.len() > *STROKE_POINTS.end() {
             straying_m *= 2.0;
-            way = thinned(&way, straying_m);
+            path = thinned(&path, straying_m);
         }
         let step = decimal_step(ROUNDING * radius_m / self.scale);
-        let points_m: Vec<[f64; 3]> = way
+        let points_m: Vec<[f64; 3]> = path
             .into_iter()
             .map(|point| self.object_from_world.transform_point3(point))
             .filter(|point| point.is_finite())
@@ -214,31 +214,31 @@ pub fn apply_stroke(
     Ok(selection)
 }
 
-/// The points of a way that are needed to stay within `straying_m` of all. Work is at worst the square of the number of
+/// The points of a path that are needed to stay within `straying_m` of all. Work is at worst the square of the number of
 /// points, so a long scribble is thinned in runs.
-fn thinned(way: &[DVec3], straying_m: f64) -> Vec<DVec3> {
+fn thinned(path: &[DVec3], straying_m: f64) -> Vec<DVec3> {
     const RUN: usize = 512;
     let mut points = Vec::new();
     let mut from = 0;
-    while from + 1 < way.len() {
-        let to = (from + RUN).min(way.len() - 1);
-        points.extend(thinned_run(&way[from..=to], straying_m));
+    while from + 1 < path.len() {
+        let to = (from + RUN).min(path.len() - 1);
+        points.extend(thinned_run(&path[from..=to], straying_m));
         // The next run begins with it.
         points.pop();
         from = to;
     }
-    points.extend(way.last());
+    points.extend(path.last());
     points
 }
 
-fn thinned_run(way: &[DVec3], straying_m: f64) -> Vec<DVec3> {
-    let last = way.len() - 1;
-    let mut kept = vec![false; way.len()];
+fn thinned_run(path: &[DVec3], straying_m: f64) -> Vec<DVec3> {
+    let last = path.len() - 1;
+    let mut kept = vec![false; path.len()];
     (kept[0], kept[last]) = (true, true);
     let mut spans = vec![(0, last)];
     while let Some((from, to)) = spans.pop() {
         let farthest = (from + 1..to)
-            .map(|i| (i, distance_to_segment(way[i], way[from], way[to])))
+            .map(|i| (i, distance_to_segment(path[i], path[from], path[to])))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((i, distance_m)) = farthest
             && distance_m > straying_m
@@ -247,7 +247,7 @@ fn thinned_run(way: &[DVec3], straying_m: f64) -> Vec<DVec3> {
             spans.extend([(from, i), (i, to)]);
         }
     }
-    let points = way.iter().zip(kept);
+    let points = path.iter().zip(kept);
     points.filter(|(_, kept)| *kept).map(|(p, _)| *p).collect()
 }
 

@@ -1,6 +1,6 @@
 //! Gratings to start from: things that everybody knows.
 
-use hairline_document::description::{Around, Distribution, Grating, GroovePattern};
+use hairline_document::description::{Distribution, Grating, GroovePattern, PatternAxis};
 
 hairline_image::listed! {
     /// A grating with all its numbers.
@@ -34,9 +34,9 @@ impl GratingPreset {
     /// The grating on an object.
     pub fn grating(self, object: impl Into<String>) -> Grating {
         let circular = |jitter_deg| {
-            GroovePattern::Circular(Around {
+            GroovePattern::Circular(PatternAxis {
                 jitter_deg,
-                ..Around::default()
+                ..PatternAxis::default()
             })
         };
         let along_x = |jitter_deg| GroovePattern::Parallel {
@@ -44,9 +44,9 @@ impl GratingPreset {
             jitter_deg,
         };
         let spots = |jitter_deg, spacing_m| GroovePattern::Swirl {
-            around: Around {
+            around: PatternAxis {
                 jitter_deg,
-                ..Around::default()
+                ..PatternAxis::default()
             },
             spacing_m,
         };

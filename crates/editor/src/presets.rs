@@ -7,8 +7,8 @@
 use glam::DVec3;
 use hairline_document::description::SUN_DEG;
 use hairline_document::description::{
-    Amount, Around, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
-    MetalColor, Pattern, Scratches, Shape,
+    Amount, Brushed, Distribution, Laid, Layer, Light, LightKind, Material, MaterialKind,
+    MetalColor, Pattern, PatternAxis, Scratches, Shape,
 };
 use hairline_document::wear::{count, fitting};
 use hairline_optics::metal::Metal;
@@ -46,9 +46,9 @@ impl LayerPreset {
     /// The layer for an object whose bounding box has this diagonal. Its seed is set when it is added.
     pub fn layer(self, object: impl Into<String>, diagonal_m: f64) -> Scratches {
         let d = fitting(diagonal_m);
-        let around = |jitter_deg| Around {
+        let around = |jitter_deg| PatternAxis {
             jitter_deg,
-            ..Around::default()
+            ..PatternAxis::default()
         };
         let drawn = |mean, spread| Distribution { mean, spread };
         // Patterns, the share of the surface that scratches cover, and their lengths, widths and depths.

@@ -151,14 +151,14 @@ impl Keyed {
         }
     }
 
-    /// A statement that checks it; `way` is the way to the table.
+    /// A statement that checks it; `key_path` leads to the table.
     pub fn check(&self, value: &TokenStream) -> TokenStream {
         match &self.source {
             Source::Key(key) => match &self.by {
-                Some(by) => quote!(#key.check(way, &#by::from(*#value))?;),
-                None => quote!(#key.check(way, #value)?;),
+                Some(by) => quote!(#key.check(key_path, &#by::from(*#value))?;),
+                None => quote!(#key.check(key_path, #value)?;),
             },
-            Source::Flat(_) => quote!(Keyed::check_keys(#value, way)?;),
+            Source::Flat(_) => quote!(Keyed::check_keys(#value, key_path)?;),
             Source::None => quote!(),
         }
     }
@@ -215,7 +215,7 @@ fn declare(entry: &Entry, field: &Field, member: &Ident, ty: &Type) -> (Ident, T
         pub const #constant: &'static #names::Key = {
             #[allow(unused_imports)]
             use #names::*;
-            &Key::new(#name, <#ty as Held>::FORM).means(#meaning)#chain
+            &Key::new(#name, <#ty as KeyValue>::FORM).means(#meaning)#chain
         };
     };
     (constant, declared)

@@ -127,7 +127,7 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
                     })
                 }
 
-                fn check_keys(&self, way: &str) -> Check {
+                fn check_keys(&self, key_path: &str) -> Check {
                     match self {
                         #(#checks)*
                     }

@@ -6,7 +6,7 @@
 //! | `#[key(unit("m").size())]` | a field | its key, by what follows `Key::new(name, form)`; the field's documentation is the key's meaning |
 //! | `#[key("where": ..)]` | a field | the key has another name in the file than the field |
 //! | `#[key(RING_RADIUS_M: ..)]` | a field | the constant of the key has another name than the field |
-//! | `#[key(= Around::AXIS)]` | a field | the key of another entry |
+//! | `#[key(= PatternAxis::AXIS)]` | a field | the key of another entry |
 //! | `#[flat]` | a field | its own fields are keys of this table |
 //! | `#[flat(KEYS)]` | a field | as `#[flat]`, listed by the keys of another list |
 //! | `#[read(function)]` | a field | read by `fn(&Table) -> Result<T, Error>` |
@@ -16,9 +16,9 @@
 //! | `#[keyed(table)]` | a struct | a table of the file: a value by itself |
 //! | `#[keyed(table, kinds = Kind)]` | a struct | a table in which a tag tells the kind |
 //! | `#[keyed(of_kinds = LISTS)]` | a struct | keys of the table that some kinds alone have: of each kind that has any, its name and the keys |
-//! | `#[keyed(held)]` | a struct | as `table`, with a reader of its own |
+//! | `#[keyed(own_reader)]` | a struct | as `table`, with a reader of its own |
 //! | `#[keyed(default)]` | a struct | its default has the initial values of its keys |
-//! | `#[keyed(check = function)]` | a struct, an enum | checked by `fn(&Self, way: &str) -> Check` too |
+//! | `#[keyed(check = function)]` | a struct, an enum | checked by `fn(&Self, key_path: &str) -> Check` too |
 //! | `#[keyed(remote = Type)]` | a struct | stands for a struct of another crate that has the same fields |
 //! | `#[keyed(tag = "kind")]` | an enum | the value of the tag tells the variant |
 //! | `#[kind("name")]` | a variant | the value of the tag |

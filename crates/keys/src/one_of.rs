@@ -43,9 +43,9 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
                     table.required(#last_key.name).map(Self::#last)
                 }
 
-                fn check_keys(&self, way: &str) -> Check {
+                fn check_keys(&self, key_path: &str) -> Check {
                     match self {
-                        #(Self::#idents(value) => #keys.check(way, value)?,)*
+                        #(Self::#idents(value) => #keys.check(key_path, value)?,)*
                     }
                     #check_more
                 }

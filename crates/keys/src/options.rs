@@ -8,7 +8,7 @@ use syn::{Attribute, Expr, Ident, LitStr, Path, Result};
 #[derive(Default)]
 pub struct Options {
     pub is_table: bool,
-    pub is_held: bool,
+    pub has_own_reader: bool,
     pub has_default: bool,
     pub is_one_of: bool,
     pub kinds: Option<Ident>,
@@ -27,8 +27,8 @@ impl Options {
                 let is = |name: &str| path.is_ident(name);
                 if is("table") {
                     options.is_table = true;
-                } else if is("held") {
-                    options.is_held = true;
+                } else if is("own_reader") {
+                    options.has_own_reader = true;
                 } else if is("default") {
                     options.has_default = true;
                 } else if is("one_of") {
@@ -55,7 +55,7 @@ impl Options {
     /// The call of the checks that are written by hand.
     pub fn check_more(&self) -> TokenStream {
         let check = self.check.as_ref();
-        check.map_or_else(|| quote!(Ok(())), |check| quote!(#check(self, way)))
+        check.map_or_else(|| quote!(Ok(())), |check| quote!(#check(self, key_path)))
     }
 }
 

@@ -85,7 +85,7 @@ pub fn expand(input: &DeriveInput, options: &Options, fields: &Fields) -> Result
                     Ok(Self { #(#members: #reads),* })
                 }
 
-                fn check_keys(&self, way: &str) -> Check {
+                fn check_keys(&self, key_path: &str) -> Check {
                     #(#checks)*
                     #check_more
                 }
@@ -129,21 +129,21 @@ fn as_value(target: &TokenStream, options: &Options) -> Option<TokenStream> {
         true => quote!(Some(Self::default())),
         false => quote!(None),
     };
-    (options.is_table || options.is_held).then(|| {
+    (options.is_table || options.has_own_reader).then(|| {
         quote! {
             #read
 
             impl Numbers for #target {}
 
-            impl Held for #target {
+            impl KeyValue for #target {
                 const FORM: Form = Form::Table;
 
                 fn initial(_: Initial) -> Option<Self> {
                     #initial
                 }
 
-                fn check_at(&self, _: &Key, way: &str) -> Check {
-                    self.check_keys(way)
+                fn check_at(&self, _: &Key, key_path: &str) -> Check {
+                    self.check_keys(key_path)
                 }
 
                 fn written(&self) -> impl serde::Serialize {

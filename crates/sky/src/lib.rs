@@ -102,7 +102,7 @@ fn maps_of(mut map: Picture, parts: bool) -> EnvironmentMaps {
     let parted = if parts {
         suns::part(&mut map)
     } else {
-        suns::Parted::default()
+        suns::ExtractedSuns::default()
     };
     let levels = prefilter::prefilter(&map);
     let irradiance = irradiance::blur(&levels[0]);

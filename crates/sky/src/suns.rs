@@ -32,14 +32,14 @@ const SHARE: f64 = 0.01;
 
 /// Suns taken out of a map.
 #[derive(Default)]
-pub(super) struct Parted {
+pub(super) struct ExtractedSuns {
     /// Suns in the map's frame and units.
     pub suns: Vec<Sun>,
     /// Texels that were changed, and their former values.
     texels: Vec<(usize, [f32; 3])>,
 }
 
-impl Parted {
+impl ExtractedSuns {
     /// Puts it back. (A copy of the map would be half a gigabyte.)
     pub(crate) fn put_back(&self, map: &mut Picture) {
         for &(i, texel) in &self.texels {
@@ -49,10 +49,10 @@ impl Parted {
 }
 
 /// Takes the suns out of a map: where they were it is as dark as around them.
-pub(super) fn part(map: &mut Picture) -> Parted {
+pub(super) fn part(map: &mut Picture) -> ExtractedSuns {
     let brightness = Brightness::measure(map);
     let mut seen = vec![false; map.rgb.len()];
-    let mut parted = Parted::default();
+    let mut parted = ExtractedSuns::default();
     for _ in 0..SPOTS_MOST {
         let Some(peak) = brightness.brightest(map, &seen) else {
             break;

@@ -11,7 +11,7 @@ use hairline_document::description::{Amount, Layer};
 use hairline_editor::DragKey;
 use hairline_editor::presets::LayerPreset;
 use hairline_gpu::{AdapterRequest, headless};
-use hairline_viewer::engine::{Backend, Latency};
+use hairline_viewer::progressive::{Backend, Latency};
 use hairline_viewer::{Options, Viewer};
 
 const BUILT_IN: &str = include_str!("../../../crates/console/src/built_in_scene.toml");
@@ -68,7 +68,7 @@ fn measure(backend: Backend) {
     wait_for_picture(&mut harness, &mut Vec::new());
     let segments = harness
         .state()
-        .engine()
+        .renderer()
         .built()
         .map_or(0, |built| built.scratch_counts().1);
     println!("\n{name}: {segments} straight pieces; medians, and the largest in brackets");
@@ -114,7 +114,7 @@ fn wait_for_picture(harness: &mut Harness<Viewer>, passes: &mut Vec<Duration>) -
         harness.step();
         passes.push(pass.elapsed());
         let wanted = harness.state().document().revision();
-        if let Some(frame) = harness.state().engine().latest()
+        if let Some(frame) = harness.state().renderer().latest()
             && let Some(latency) = frame.painted.latency
             && latency.revision == wanted
         {

@@ -14,7 +14,7 @@ use hairline_document::description::{Amount, Layer};
 use hairline_document::navigate;
 use hairline_editor::DragKey;
 use hairline_editor::presets::LayerPreset;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::window::{Renderer, open_as};
 use hairline_viewer::{Options, Viewer};
 
@@ -147,7 +147,7 @@ impl Probe {
 
     /// Number of the newest picture, and whether it is the last one of its view.
     fn picture(&self) -> (u64, bool) {
-        let frame = self.viewer.engine().latest();
+        let frame = self.viewer.renderer().latest();
         frame.map_or((0, false), |frame| {
             let is_newest = frame.built.revision == self.viewer.document().revision();
             (frame.number, frame.painted.is_final && is_newest)
@@ -189,7 +189,7 @@ impl Probe {
         let (number, _) = self.picture();
         let times = Times {
             scenario,
-            what_paints: self.viewer.engine().backend().label(),
+            what_paints: self.viewer.renderer().backend().label(),
             passes: std::mem::take(&mut self.passes),
             frames: std::mem::take(&mut self.frames),
             pictures: number - self.first_picture,

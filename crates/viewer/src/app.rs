@@ -1,4 +1,4 @@
-//! The viewer's state, and a pass over it: commands, engine, panels, picture. It alone knows all of them.
+//! The viewer's state, and a pass over it: commands, renderer, panels, picture. It alone knows all of them.
 
 mod documents;
 mod on_disk;
@@ -23,8 +23,7 @@ use web_time::Instant;
 
 use crate::command::Command;
 use crate::compare::{Compare, Figures};
-use crate::dialogs::{Dialogs, Wish};
-use crate::engine::{Backend, Engine};
+use crate::dialogs::{Dialogs, PendingAction};
 use crate::examples::Examples;
 use crate::export::Export;
 use crate::files::{Files, Purpose};
@@ -39,6 +38,7 @@ use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::panels;
 use crate::platform::HAS_DISK;
+use crate::progressive::{Backend, ProgressiveRenderer};
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::Toolbox;
@@ -78,15 +78,15 @@ pub struct Viewer {
     typed: Option<(Purpose, PathBuf)>,
     /// The file that is not there and is being looked for, as the scene names it.
     sought: Option<PathBuf>,
-    /// Wish that is fulfilled once the scene is saved.
-    after_save: Option<Wish>,
+    /// Action that is performed once the scene is saved.
+    after_save: Option<PendingAction>,
     hides_list: bool,
     hides_inspector: bool,
     /// A text had the keyboard at the end of the last pass.
     was_typing: bool,
-    /// The description that the engine was given last, and when the notes about it were read.
+    /// The description that the progressive renderer was given last, and when the notes about it were read.
     asked: Option<Arc<Description>>,
-    /// Revision of the document that the engine was last told to build.
+    /// Revision of the document that the progressive renderer was last told to build.
     asked_revision: u64,
     /// Reason why there is no scene of the description that was asked for last, until an edit is looked for that is at fault.
     not_built: Option<String>,
@@ -134,7 +134,10 @@ impl Viewer {
         let snapshots = Snapshots::open(document.path(), &viewport.canvas, ctx);
         let work = Workspace {
             document,
-            engine: Engine::start(options.backend, Arc::new(move || wake.request_repaint())),
+            renderer: ProgressiveRenderer::start(
+                options.backend,
+                Arc::new(move || wake.request_repaint()),
+            ),
             notices,
             toolbox: Toolbox::default(),
             region: None,
@@ -154,8 +157,8 @@ impl Viewer {
             missing: Vec::new(),
             model_notes: Vec::new(),
             wanted_picture: None,
-            wished: Vec::new(),
-            wished_when_built: None,
+            requested: Vec::new(),
+            requested_when_built: None,
         };
         let mut viewer = Self {
             work,
@@ -203,13 +206,13 @@ impl Viewer {
         self.work.camera()
     }
 
-    /// Engine, for tests.
-    pub fn engine(&self) -> &Engine {
-        &self.work.engine
+    /// The progressive renderer, for tests.
+    pub fn renderer(&self) -> &ProgressiveRenderer {
+        &self.work.renderer
     }
 
-    /// View that the engine was last told to paint, for tests.
-    pub fn view(&self) -> Option<crate::engine::View> {
+    /// View that the progressive renderer was last told to paint, for tests.
+    pub fn view(&self) -> Option<crate::progressive::View> {
         self.viewport.view
     }
 
@@ -310,7 +313,7 @@ impl Viewer {
             None => {}
         }
         let area = self.show_picture(ui);
-        let is_building = self.work.engine.is_building();
+        let is_building = self.work.renderer.is_building();
         let above_strip = self.work.snapshots.above_strip(area);
         let above_strip = self.work.looks.above_strip(above_strip);
         self.work.notices.show(&ctx, above_strip, is_building);
@@ -324,14 +327,14 @@ impl Viewer {
             self.ask_path(&ctx, purpose);
         }
         self.export.show(&ctx, &mut self.work, area);
-        for command in std::mem::take(&mut self.work.wished) {
+        for command in std::mem::take(&mut self.work.requested) {
             self.run(&ctx, command);
         }
         self.show_dialogs(&ctx);
         crate::style::show_focus(&ctx);
         self.end_drag_where_nothing_is_held(&ctx);
         self.ask_engine();
-        if let Some(pause) = self.work.engine.work() {
+        if let Some(pause) = self.work.renderer.work() {
             ctx.request_repaint_after(pause);
         }
         if let Some(failed) = self.files.autosave(&self.work.document) {

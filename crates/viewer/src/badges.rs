@@ -28,7 +28,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, area: Rect) {
                         ui.strong(shows.name()).on_hover_text(shows.hint());
                         let back = Command::Read(ReadCommand::Show(Shows::Beauty));
                         if ui.small_button("Back to the picture").clicked() {
-                            work.wished.push(back);
+                            work.requested.push(back);
                         }
                     });
                 }
@@ -45,7 +45,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, area: Rect) {
                             ("Set camera to view", ViewCommand::SetCameraToView),
                         ] {
                             if ui.small_button(words).clicked() {
-                                work.wished.push(Command::View(command));
+                                work.requested.push(Command::View(command));
                             }
                         }
                     });
@@ -57,7 +57,8 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, area: Rect) {
                                 "In this window only: the scene and its exports are as they were",
                             );
                         if ui.small_button("Reset").clicked() {
-                            work.wished.push(Command::Read(ReadCommand::ResetExposure));
+                            work.requested
+                                .push(Command::Read(ReadCommand::ResetExposure));
                         }
                     });
                 }

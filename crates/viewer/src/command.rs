@@ -13,7 +13,7 @@ use crate::tools::Tool;
 
 pub(crate) use key_text::key_text;
 
-/// A wish of the artist.
+/// A command of the artist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Command {
     New,

@@ -18,7 +18,7 @@ use hairline_editor::autosave::Pending;
 
 use crate::command::{self, Group};
 use crate::files::Purpose;
-pub(crate) use answer::{Answer, Wish};
+pub(crate) use answer::{Answer, PendingAction};
 use ask::{Loses, ask};
 pub(crate) use examples::Choice;
 pub(crate) use path_line::PathLine;
@@ -27,8 +27,8 @@ use recovery::Recovery;
 
 /// Question in the window.
 pub(crate) enum Question {
-    /// Unsaved changes stand in the way of a wish.
-    Unsaved(Wish),
+    /// Unsaved changes stand in the way of an action.
+    Unsaved(PendingAction),
     /// Autosaves of earlier runs that did not end as they should.
     Recover(Recovery),
     /// The name of a preset.
@@ -103,7 +103,7 @@ impl Question {
     /// Shows the question; none until there is an answer.
     fn show(&mut self, ctx: &egui::Context, title: &str) -> Option<Answer> {
         match self {
-            Self::Unsaved(wish) => unsaved(ctx, title, wish),
+            Self::Unsaved(action) => unsaved(ctx, title, action),
             Self::Recover(recovery) => recovery.show(ctx),
             Self::Preset(line) => line.show(ctx),
             Self::Examples(choice) => choice.show(ctx),
@@ -121,14 +121,14 @@ impl Question {
     }
 }
 
-fn unsaved(ctx: &egui::Context, title: &str, wish: &Wish) -> Option<Answer> {
+fn unsaved(ctx: &egui::Context, title: &str, action: &PendingAction) -> Option<Answer> {
     let text = format!("\"{title}\" has changes that are not saved.");
     let answers = ["Save the changes", "Discard the changes", "Cancel"];
     let heading = "Save the changes?";
     let answer = ask(ctx, "unsaved", heading, &text, &answers, Loses::Nothing)?;
     Some(match answer {
-        0 => Answer::SaveBefore(wish.clone()),
-        1 => Answer::Fulfil(wish.clone()),
+        0 => Answer::SaveBefore(action.clone()),
+        1 => Answer::Perform(action.clone()),
         _ => Answer::Cancel,
     })
 }

@@ -16,10 +16,10 @@ use hairline_document::{DEFAULT_SAMPLES, Description};
 use hairline_image::{Animation, Output, check_sequence};
 use web_time::Instant;
 
-use crate::engine::SHADOW_SAMPLES;
 use crate::files::Purpose;
 use crate::jobs::Job;
 use crate::notices::Notices;
+use crate::progressive::SHADOW_SAMPLES;
 use crate::viewport::camera;
 use crate::workspace::Workspace;
 use form::{Answer, ExportContext, Form, words};
@@ -129,7 +129,7 @@ impl Export {
         });
         // The export gets the cores.
         let is_rehearsing = self.rehearsal.as_ref().is_some_and(|it| !it.is_over());
-        work.engine
+        work.renderer
             .set_resting(self.running.is_some() || is_rehearsing);
     }
 
@@ -149,7 +149,7 @@ impl Export {
         let description = work.document.description();
         let scene_px = description.render.size_px;
         let window_px = work
-            .engine
+            .renderer
             .latest()
             .map_or(scene_px, |frame| fitting(scene_px, frame.view.size_px));
         let scene = ExportContext {
@@ -199,8 +199,8 @@ impl Export {
             ctx.request_repaint_after(Duration::from_millis(100));
         }
         if is_over
-            && !work.engine.is_building()
-            && let Some(built) = work.engine.built()
+            && !work.renderer.is_building()
+            && let Some(built) = work.renderer.built()
         {
             self.rehearsal = Rehearsal::start(ctx, wish, built).ok();
         }
@@ -226,7 +226,7 @@ impl Export {
             motion: form.motion(),
             fps: form.fps,
             path: form.path(),
-            backend: work.engine.backend(),
+            backend: work.renderer.backend(),
         }
     }
 
@@ -263,10 +263,10 @@ impl Export {
     }
 
     fn start(&mut self, ctx: &egui::Context, work: &mut Workspace) {
-        if self.running.is_some() || work.engine.is_building() {
+        if self.running.is_some() || work.renderer.is_building() {
             return;
         }
-        let (Some(built), Some(wish)) = (work.engine.built(), self.waiting.take()) else {
+        let (Some(built), Some(wish)) = (work.renderer.built(), self.waiting.take()) else {
             return;
         };
         let wake = ctx.clone();

@@ -18,7 +18,7 @@ pub(crate) struct FreeView {
     pub turns: bool,
 }
 
-/// A wish about where to look from.
+/// A command about where to look from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ViewCommand {
     LookThroughCamera,

@@ -1,7 +1,7 @@
 //! The viewer: edit scratches, light and material live.
 //!
 //! ```no_run
-//! use hairline_viewer::{Options, engine::Backend, window::Renderer};
+//! use hairline_viewer::{Options, progressive::Backend, window::Renderer};
 //!
 //! let options = Options {
 //!     scene: Some("scenes/plate.toml".into()),
@@ -15,8 +15,8 @@
 //! hairline_viewer::open(options, Renderer::default()).unwrap();
 //! ```
 //!
-//! What it edits is a [`Document`](hairline_editor::Document); what paints it is an [`engine::Engine`]. Widgets read the
-//! document and hand changes to it; the engine is given the document's newest description and the view, and never waited
+//! What it edits is a [`Document`](hairline_editor::Document); what paints it is a [`progressive::ProgressiveRenderer`]. Widgets read the
+//! document and hand changes to it; the renderer is given the document's newest description and the view, and never waited
 //! for. [`window`] opens it on a screen; tests drive [`Viewer`] without one.
 
 mod app;
@@ -25,7 +25,6 @@ mod command;
 mod compare;
 mod device;
 mod dialogs;
-pub mod engine;
 pub mod examples;
 mod export;
 mod files;
@@ -47,6 +46,7 @@ mod panels;
 mod parts;
 mod platform;
 mod priority;
+pub mod progressive;
 pub mod reading;
 #[cfg(target_arch = "wasm32")]
 mod script;

@@ -12,9 +12,9 @@ use hairline_editor::{Document, Selection};
 use hairline_image::FilePath;
 
 use crate::command::Command;
-use crate::engine::Engine;
 use crate::jobs::Job;
 use crate::platform::HAS_THREADS;
+use crate::progressive::ProgressiveRenderer;
 use crate::thumbnail::{LOW, Thumbnail};
 use picture::SmallPicture;
 
@@ -43,7 +43,7 @@ impl Looks {
     }
 
     /// Takes over the pictures that were made, and makes those that are missing once the picture stands still: they are small.
-    fn follow(&mut self, ctx: &Context, document: &Document, engine: &Engine) {
+    fn follow(&mut self, ctx: &Context, document: &Document, renderer: &ProgressiveRenderer) {
         let description = document.description();
         if self.revision != document.revision() {
             self.revision = document.revision();
@@ -68,11 +68,11 @@ impl Looks {
             self.pictures.push((made.scene, texture));
         }
         let is_still = || {
-            let shown = engine.latest();
+            let shown = renderer.latest();
             shown.is_some_and(|it| it.painted.is_final || it.painted.of_samples.is_some())
         };
         self.making.take_if(|(job, _)| job.is_over());
-        if HAS_THREADS && self.making.is_none() && !engine.is_building() && is_still() {
+        if HAS_THREADS && self.making.is_none() && !renderer.is_building() && is_still() {
             self.make_missing(ctx, document.base_dir());
         }
     }
@@ -100,10 +100,10 @@ impl Looks {
         &mut self,
         ui: &mut Ui,
         document: &Document,
-        engine: &Engine,
+        renderer: &ProgressiveRenderer,
         area: Rect,
     ) -> Clicked {
-        self.follow(ui.ctx(), document, engine);
+        self.follow(ui.ctx(), document, renderer);
         let all = &document.description().looks;
         match all.is_empty() {
             true => Clicked::Nothing,

@@ -7,9 +7,9 @@ use hairline_document::Ruler;
 use hairline_editor::quantity::Unit;
 use hairline_scene::{Mesh, Object, Scratch};
 
-use crate::engine::Built;
 use crate::jobs::Job;
 use crate::platform::HAS_THREADS;
+use crate::progressive::Built;
 
 /// Measured things; no part of the scene.
 #[derive(Default)]
@@ -87,11 +87,11 @@ impl ScratchTexts {
         let pieces = object.pieces(scratch);
         let [width_um, depth_nm] = [scratch.profile.width_um, scratch.profile.depth_nm];
         let middle = &pieces[pieces.len() / 2];
-        let way = pieces[pieces.len() - 1].end_m - pieces[0].start_m;
+        let chord = pieces[pieces.len() - 1].end_m - pieces[0].start_m;
         let direction = match scratch.closed {
             true => "a ring".to_owned(),
             false => {
-                let [x, y, z] = way.normalize_or_zero().to_array();
+                let [x, y, z] = chord.normalize_or_zero().to_array();
                 format!("{x:+.3}  {y:+.3}  {z:+.3}")
             }
         };
@@ -130,8 +130,8 @@ pub(crate) struct Span {
     pub ends_m: [DVec3; 2],
     /// Whether both ends are on one object.
     pub is_on_one: bool,
-    /// The bends of the way on the surface between them; none where there is none.
-    pub way_m: Option<Vec<DVec3>>,
+    /// The bends of the path on the surface between them; none where there is none.
+    pub path_m: Option<Vec<DVec3>>,
 }
 
 impl Span {
@@ -139,10 +139,10 @@ impl Span {
         self.ends_m[0].distance(self.ends_m[1])
     }
 
-    /// Length of the way on the surface.
+    /// Length of the path on the surface.
     pub fn along_m(&self) -> Option<f64> {
-        let way_m = self.way_m.as_ref()?;
-        Some(way_m.array_windows().map(|[a, b]| a.distance(*b)).sum())
+        let path_m = self.path_m.as_ref()?;
+        Some(path_m.array_windows().map(|[a, b]| a.distance(*b)).sum())
     }
 }
 
@@ -178,7 +178,7 @@ impl SpanRuler {
         found.unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Looks for the way that is wanted.
+    /// Looks for the path that is wanted.
     pub fn follow(&mut self, ctx: &egui::Context) {
         let Some(ends) = &self.wanted else {
             return;
@@ -193,14 +193,14 @@ impl SpanRuler {
         let (ruler, found) = (Arc::clone(&self.ruler), Arc::clone(&self.found));
         let work = move || {
             let is_on_one = Arc::ptr_eq(&ends[0].mesh, &ends[1].mesh);
-            let way_m = way_m(
+            let path_m = path_m(
                 &ends,
                 &mut ruler.lock().unwrap_or_else(PoisonError::into_inner),
             );
             *found.lock().unwrap_or_else(PoisonError::into_inner) = Some(Span {
                 ends_m,
                 is_on_one,
-                way_m,
+                path_m,
             });
             wake.request_repaint();
         };
@@ -212,7 +212,7 @@ impl SpanRuler {
     }
 }
 
-fn way_m([from, to]: &[SurfacePoint; 2], kept: &mut Option<Ruler>) -> Option<Vec<DVec3>> {
+fn path_m([from, to]: &[SurfacePoint; 2], kept: &mut Option<Ruler>) -> Option<Vec<DVec3>> {
     if !Arc::ptr_eq(&from.mesh, &to.mesh) {
         return None;
     }
@@ -223,5 +223,5 @@ fn way_m([from, to]: &[SurfacePoint; 2], kept: &mut Option<Ruler>) -> Option<Vec
         *kept = Some(Ruler::new(Arc::clone(&from.mesh)));
     }
     kept.as_ref()?
-        .way_m(from.triangle, from.point_m, to.point_m)
+        .path_m(from.triangle, from.point_m, to.point_m)
 }

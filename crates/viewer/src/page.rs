@@ -13,7 +13,7 @@ use web_sys::HtmlCanvasElement;
 
 use crate::app::{Options, Viewer};
 use crate::device::{self, Renderer};
-use crate::engine::Backend;
+use crate::progressive::Backend;
 
 /// A page that is narrower, in its own pixels, has no room for panels beside the picture.
 const NARROW_PX: i32 = 760;

@@ -32,6 +32,6 @@ use crate::workspace::Workspace;
 /// A button for a command.
 fn button(ui: &mut Ui, work: &mut Workspace, command: Command) {
     if ui.button(command.label()).clicked() {
-        work.wished.push(command);
+        work.requested.push(command);
     }
 }

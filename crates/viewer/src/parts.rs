@@ -18,7 +18,7 @@ pub(crate) struct Names {
 pub(crate) fn names(work: &Workspace, object: &str) -> Names {
     let described = work.document.description().objects.iter();
     let described = described.clone().find(|it| it.name == object);
-    let Some(built) = work.engine.built() else {
+    let Some(built) = work.renderer.built() else {
         return Names::default();
     };
     let scene = &built.scene;

@@ -4,7 +4,7 @@
 /// given, and hands out those that it writes.
 pub(crate) const HAS_DISK: bool = cfg!(not(target_arch = "wasm32"));
 
-/// Whether work goes on beside the interface. Not in a browser: there the engine works in turn with it.
+/// Whether work goes on beside the interface. Not in a browser: there the progressive renderer works in turn with it.
 pub(crate) const HAS_THREADS: bool = cfg!(not(target_arch = "wasm32"));
 
 /// Whether the window is in a page, which has a gallery of scenes and an address.

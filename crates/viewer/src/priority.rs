@@ -9,7 +9,7 @@ use thread_priority::{ThreadPriority, ThreadPriorityValue, set_current_thread_pr
 const PRIORITY: u8 = 40;
 
 /// Gives this thread, and those that it starts if the system hands the priority on, a lower priority than the interface's threads. A browser
-/// has one thread, whose turns `engine::in_turn` keeps short.
+/// has one thread, whose turns `progressive::in_turn` keeps short.
 pub(crate) fn lower() {
     #[cfg(not(target_arch = "wasm32"))]
     if let Ok(priority) = ThreadPriorityValue::try_from(PRIORITY) {

@@ -14,9 +14,9 @@ use egui::ColorImage;
 use hairline_document::Description;
 use hairline_editor::Document;
 
-use crate::engine::{Frame, Picture, View};
 use crate::notices::Notices;
 use crate::platform::HAS_DISK;
+use crate::progressive::{Frame, Picture, View};
 use crate::seen::makes_same_scene;
 use crate::viewport::canvas::CanvasTexture;
 
@@ -34,9 +34,9 @@ pub(crate) struct Snapshots {
     taken: usize,
     /// Index of the one that was chosen last.
     chosen: Option<usize>,
-    /// Whether the chosen snapshot is shown, in the way of `way`.
+    /// Whether the chosen snapshot is shown, as `mode` says.
     is_shown: bool,
-    way: Way,
+    mode: CompareMode,
     /// Position of the divider from 0, left, to 1.
     divider: f32,
     /// Upper edge of the strip in the last pass, points.
@@ -52,7 +52,7 @@ impl Default for Snapshots {
             taken: 0,
             chosen: None,
             is_shown: false,
-            way: Way::Flip,
+            mode: CompareMode::Flip,
             divider: 0.5,
             strip_top: f32::INFINITY,
         }
@@ -62,7 +62,7 @@ impl Default for Snapshots {
 hairline_image::listed! {
     /// Display of a snapshot.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    enum Way {
+    enum CompareMode {
         Flip = "Flip";
         SideBySide = "Side by side";
         Slider = "Slider";
@@ -213,7 +213,7 @@ impl Snapshots {
 
     /// Whether the snapshot covers the whole picture.
     pub fn cover(&self) -> bool {
-        self.is_shown && self.way != Way::Slider
+        self.is_shown && self.mode != CompareMode::Slider
     }
 
     fn shown(&mut self) -> Option<&mut Snapshot> {

@@ -21,7 +21,7 @@ use std::time::Duration;
 use eframe::egui_wgpu::RenderState;
 use glam::DVec3;
 
-use crate::engine::View;
+use crate::progressive::View;
 use crate::workspace::Workspace;
 
 pub(crate) use area::{Area, camera};
@@ -44,7 +44,7 @@ pub(crate) struct Viewport {
     line_fields: Vec<LineField>,
     /// The largest time of the interface's own passes of late, for the status line.
     pub interface_time: Duration,
-    /// View that the engine was given last.
+    /// View that the progressive renderer was given last.
     pub view: Option<View>,
     /// Position of the pointer in the picture, or where its right button opened a menu.
     pointed: Option<(Area, egui::Pos2)>,

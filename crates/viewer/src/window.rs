@@ -9,9 +9,9 @@ use hairline_gpu::{AdapterRequest, Gpu, headless};
 
 use crate::app::{Options, Viewer};
 use crate::device;
-use crate::engine::Backend;
 use crate::loss::WindowLoss;
 use crate::priority;
+use crate::progressive::Backend;
 
 pub use crate::device::Renderer;
 pub(crate) use software::SoftwareWindow;
@@ -106,7 +106,7 @@ fn watch(state: Option<&RenderState>, backend: &Backend, loss: &WindowLoss) {
     loss.watch(&state.device);
     let loss = loss.clone();
     match backend {
-        // The shared device calls one listener, which reports to the engine as well.
+        // The shared device calls one listener, which reports to the progressive renderer as well.
         Backend::Shared(gpu) => gpu.on_lost(move |reason| loss.tell(reason)),
         _ => state
             .device

@@ -21,7 +21,6 @@ use hairline_editor::{ActionError, Document, DragKey, Selection, actions};
 use hairline_scene::Transport;
 
 use crate::command::Command;
-use crate::engine::{Backend, Engine};
 use crate::examples::Examples;
 use crate::files::is_same;
 use crate::free_view::FreeView;
@@ -31,6 +30,7 @@ use crate::measure::Measure;
 use crate::notices::Notices;
 use crate::overlays::Overlays;
 use crate::platform::{HAS_PAGE, HAS_THREADS};
+use crate::progressive::{Backend, ProgressiveRenderer};
 use crate::reading::ReadingState;
 use crate::snapshots::Snapshots;
 use crate::tools::{Tool, Toolbox};
@@ -41,7 +41,7 @@ pub(crate) const NO_PRESET: &str = "A preset is made of a material, a light, or 
 /// Workspace of all panels. It knows no panel: whoever shows a part of it takes it.
 pub(crate) struct Workspace {
     pub document: Document,
-    pub engine: Engine,
+    pub renderer: ProgressiveRenderer,
     pub notices: Notices,
     pub toolbox: Toolbox,
     /// Part of the picture's area that is rendered before the rest, in shares of it.
@@ -68,9 +68,9 @@ pub(crate) struct Workspace {
     /// The picture whose file a panel wants to be chosen.
     pub wanted_picture: Option<PictureOf>,
     /// Commands of panels, to be run once all panels are shown.
-    pub wished: Vec<Command>,
+    pub requested: Vec<Command>,
     /// Command to be run once the objects are built as they are described.
-    pub wished_when_built: Option<Command>,
+    pub requested_when_built: Option<Command>,
 }
 
 impl Workspace {
@@ -161,7 +161,7 @@ impl Workspace {
 
     /// Tells, once, the contents of the newest scene's models that the picture does not have.
     pub fn tell_model_notes(&mut self) {
-        let Some(built) = self.engine.built() else {
+        let Some(built) = self.renderer.built() else {
             return;
         };
         let is_of_model = |note: &&String| !built.description.notes.contains(note);
@@ -202,7 +202,7 @@ impl Workspace {
             _ if !command.is_here() => false,
             Command::Gallery => HAS_PAGE || !self.examples.scenes.is_empty(),
             // A page would stand still until the CPU has rendered all of a picture.
-            Command::Screenshot => HAS_THREADS || !matches!(self.engine.backend(), Backend::Cpu),
+            Command::Screenshot => HAS_THREADS || !matches!(self.renderer.backend(), Backend::Cpu),
             Command::Undo | Command::Delete if self.toolbox.lone_point().is_some() => true,
             Command::Undo => self.document.undo_label().is_some(),
             Command::Redo => self.document.redo_label().is_some(),
@@ -265,7 +265,7 @@ impl Workspace {
             Command::Overlay(overlay) => Some(self.overlays.is_on(overlay)),
             Command::Overlays => Some(!self.overlays.are_hidden()),
             Command::Shadows => Some(self.transport.shadows),
-            Command::Pause => Some(self.engine.is_paused()),
+            Command::Pause => Some(self.renderer.is_paused()),
             Command::ListScratches => Some(self.measure.has_list),
             Command::HighContrast => Some(self.settings.high_contrast()),
             _ => None,

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
 use hairline_editor::autosave;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::window::{self, Renderer};
 use hairline_viewer::{Options, Viewer};
 

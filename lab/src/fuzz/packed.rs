@@ -234,8 +234,8 @@ fn literally<const N: usize>(elements: &[[u8; N]]) -> Vec<u8> {
     for k in 0..N {
         let mut last = 0_u8;
         for element in elements {
-            let way = element[k].wrapping_sub(last);
-            packed.push(way << 1 ^ (way as i8 >> 7) as u8);
+            let difference = element[k].wrapping_sub(last);
+            packed.push(difference << 1 ^ (difference as i8 >> 7) as u8);
             last = element[k];
         }
     }

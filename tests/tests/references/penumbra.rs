@@ -53,11 +53,11 @@ const LAMPS: [Lamp; 4] = [
                 DVec3::new(-0.015, 0.11, 0.14),
                 DVec3::new(0.015, 0.09, 0.12),
             ];
-            let (way, first) = (last - first, first - from);
+            let (span, first) = (last - first, first - from);
             // The point of the lamp's line that is nearest to the ray.
             let beside = |v: DVec3| v - along * v.dot(along);
-            let share = -beside(first).dot(way) / beside(way).dot(way);
-            beside(first + way * share.clamp(0.0, 1.0)).length() < 0.006
+            let share = -beside(first).dot(span) / beside(span).dot(span);
+            beside(first + span * share.clamp(0.0, 1.0)).length() < 0.006
         },
         edge_m: 0.03,
         reach: 0.14,
@@ -66,8 +66,8 @@ const LAMPS: [Lamp; 4] = [
 
 /// Vector from the lamp's middle to the point where a line meets its plane.
 fn on_plane(from: DVec3, along: DVec3, facing: DVec3) -> DVec3 {
-    let way = MIDDLE_M - from;
-    along * (way.dot(facing) / along.dot(facing)) - way
+    let offset = MIDDLE_M - from;
+    along * (offset.dot(facing) / along.dot(facing)) - offset
 }
 
 /// Irradiance at a point under a lamp, by steps of its width: all of it, and the part that passes the edge at x = 0 of a board.
@@ -79,11 +79,11 @@ fn irradiance(lamp: &Lamp, from: DVec3, steps: i32) -> [f64; 2] {
     let (mut all, mut seen) = (0.0, 0.0);
     let at = |i: i32| lamp.reach * ((f64::from(i) + 0.5) / f64::from(steps) * 2.0 - 1.0);
     for (i, j) in (0..steps).flat_map(|i| (0..steps).map(move |j| (i, j))) {
-        let way = towards + at(i) * right + at(j) * up;
-        let along = way.normalize();
+        let offset = towards + at(i) * right + at(j) * up;
+        let along = offset.normalize();
         if (lamp.meets)(from, along) {
             // The solid angle of a square of the plane one unit away, and the cosine on the plate.
-            let weight = along.z * way.length().powi(-3);
+            let weight = along.z * offset.length().powi(-3);
             all += weight;
             if from.x + along.x / along.z * lamp.edge_m < 0.0 {
                 seen += weight;

@@ -2,7 +2,7 @@
 //! wrong light or a missing object makes.
 
 use conformance::unbiased::{
-    LAYERS, SCENES, brighter, expected, found, inside, rendered, scene, without,
+    LAYERS, SCENES, brighter, expected, inside, layer_error, rendered, scene, without,
 };
 use hairline_image::Image;
 use hairline_image::metrics::Verdict;
@@ -49,7 +49,7 @@ fn check(numbers: &[u32], reference: u32) {
         let bare = picture(&without(right.clone(), occluders), numbers[0], shadows);
         let inside = inside(&right);
         for layer in LAYERS {
-            let of = |image| found(image, &expected, &open, layer, &inside);
+            let of = |image| layer_error(image, &expected, &open, layer, &inside);
             for (samples, image) in numbers.iter().zip(&images) {
                 let found = of(image);
                 println!("{name}, {bounces}, {}, {samples}: {found:?}", layer.name());

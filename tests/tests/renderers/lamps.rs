@@ -31,9 +31,9 @@ fn lamps(visible: bool) -> Scene {
 
 fn pixel_at(image: &Image, scene: &Scene, point_m: [f64; 3]) -> [f32; 3] {
     let frame = scene.camera.frame(scene.render.size_px);
-    let way = glam::DVec3::from(point_m) - frame.position_m;
-    let way = way / way.dot(frame.forward);
-    let across = |step: glam::DVec3| way.dot(step) / step.length_squared();
+    let ray = glam::DVec3::from(point_m) - frame.position_m;
+    let ray = ray / ray.dot(frame.forward);
+    let across = |step: glam::DVec3| ray.dot(step) / step.length_squared();
     let x = across(frame.per_px_x) + 0.5 * frame.size_px.x;
     let y = across(frame.per_px_y) + 0.5 * frame.size_px.y;
     image.beauty().rgb[y as usize * image.size_px[0] as usize + x as usize]

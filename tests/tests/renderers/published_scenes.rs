@@ -23,14 +23,14 @@ const POINT: PublishedMethod = PublishedMethod {
 };
 
 /// Both renderers with a scene at hand.
-struct Both<'a> {
+struct RendererPair<'a> {
     name: &'a str,
     scene: &'a Scene,
     prepared: Prepared<'a>,
     renderer: Renderer,
 }
 
-impl<'a> Both<'a> {
+impl<'a> RendererPair<'a> {
     /// Prepares both renderers; none where there is no driver.
     fn new(name: &'a str, scene: &'a Scene) -> Option<Self> {
         let gpu = headless::test_gpu()?;
@@ -93,7 +93,7 @@ fn each_switch() {
     let usual = PublishedMethod::default();
     for name in ["plate", "closeup"] {
         let scene = middle(&format!("{name}.toml"), 256, [32; 2]);
-        let Some(mut both) = Both::new(name, &scene) else {
+        let Some(mut both) = RendererPair::new(name, &scene) else {
             return;
         };
         let published = both.check(usual, Mask::Density);
@@ -135,7 +135,7 @@ fn fine_disk() -> Scene {
 #[test]
 fn lists_of_triangles() {
     let scene = fine_disk();
-    let Some(mut both) = Both::new("disk", &scene) else {
+    let Some(mut both) = RendererPair::new("disk", &scene) else {
         return;
     };
     let by_hierarchy = both.check(POINT, Mask::Density);
@@ -151,7 +151,7 @@ fn lists_of_triangles() {
 #[test]
 fn a_star_in_triangles() {
     let scene = middle("lights.toml", 256, [48; 2]);
-    let Some(mut both) = Both::new("lights", &scene) else {
+    let Some(mut both) = RendererPair::new("lights", &scene) else {
         return;
     };
     both.check(PublishedMethod::default(), Mask::Density);
@@ -167,7 +167,7 @@ fn under_a_map() {
     }
     let mut scene = middle("closeup.toml", 256, [32; 2]);
     scene.environment = Some(hairline_sky::from_map(map, 0.4, 1.0, true));
-    let Some(mut both) = Both::new("closeup under a map", &scene) else {
+    let Some(mut both) = RendererPair::new("closeup under a map", &scene) else {
         return;
     };
     both.check(PublishedMethod::default(), Mask::Density);
@@ -177,7 +177,7 @@ fn under_a_map() {
 #[test]
 fn a_change_of_method_writes_its_tables_alone() {
     let scene = middle("plate.toml", 256, [32; 2]);
-    let Some(mut both) = Both::new("plate", &scene) else {
+    let Some(mut both) = RendererPair::new("plate", &scene) else {
         return;
     };
     let (prepared, renderer) = (&both.prepared, &mut both.renderer);

@@ -63,7 +63,7 @@ pub(super) fn build(
 
 /// The end of a run.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct RunResult {
     pub passed: Vec<String>,
     pub failed: Vec<String>,
     /// How it ended, if not well.
@@ -73,7 +73,7 @@ pub(super) struct Found {
 
 impl Program {
     /// Runs the tests that match one of some filters, with the fault of a row, or 0 for none.
-    pub fn run(&self, root: &Path, filters: &[&str], mutant: usize) -> anyhow::Result<Found> {
+    pub fn run(&self, root: &Path, filters: &[&str], mutant: usize) -> anyhow::Result<RunResult> {
         // Efficiencies of gratings are kept there; those of a fault must not outlive it.
         let cache = tempfile::tempdir()?;
         let mut command = Command::new(&self.file);
@@ -103,7 +103,7 @@ impl Program {
             let name = |line: &str| Some(line.strip_prefix("test ")?.strip_suffix(ending)?.into());
             lines.lines().filter_map(name).collect()
         };
-        Ok(Found {
+        Ok(RunResult {
             passed: tests(" ... ok"),
             failed: tests(" ... FAILED"),
             ending: (!run.status.success()).then(|| run.status.to_string()),

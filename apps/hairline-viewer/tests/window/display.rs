@@ -221,11 +221,11 @@ impl Display {
     }
 
     /// Drags with the left button held, with some steps between each two places.
-    pub fn drag(&self, way: &[Pos2]) {
-        self.move_to(way[0]);
+    pub fn drag(&self, path: &[Pos2]) {
+        self.move_to(path[0]);
         self.send(xproto::BUTTON_PRESS_EVENT, 1);
         self.rest();
-        for pair in way.windows(2) {
+        for pair in path.windows(2) {
             for step in 1..=3 {
                 self.move_to(pair[0].lerp(pair[1], step as f32 / 3.0));
             }

@@ -7,7 +7,7 @@ use egui::accesskit::Role;
 use egui::{Pos2, Rect};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 use crate::PATIENCE;
@@ -49,7 +49,7 @@ impl Layout {
                 Viewer::new(&context.egui_ctx, None, options).unwrap()
             });
         let start = Instant::now();
-        while harness.state().engine().built().is_none() {
+        while harness.state().renderer().built().is_none() {
             assert!(start.elapsed() < PATIENCE, "no scene was built");
             harness.step();
         }

@@ -4,10 +4,10 @@ use hairline_cpu::closed_form::Prepared;
 use hairline_gpu::Error;
 
 use super::figures::{Curve, Point};
+use super::methods::BenchMethod;
 use super::stage::{Lamps, Stage, TALK_SCRATCHES};
 use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
-use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_render::failure::Failure;
@@ -18,7 +18,7 @@ pub type Stages = fn(Stage, bool) -> Plan;
 /// Measurements along a curve.
 pub struct Plan {
     along: &'static str,
-    ways: &'static [BenchMethod],
+    methods: &'static [BenchMethod],
     stages: Vec<(f64, Stage)>,
 }
 
@@ -45,7 +45,7 @@ pub fn scratches(base: Stage, quick: bool) -> Plan {
     };
     Plan {
         along: "scratches",
-        ways: BOTH,
+        methods: BOTH,
         stages: counts.iter().map(stage).collect(),
     }
 }
@@ -74,7 +74,7 @@ pub fn zoom(base: Stage, quick: bool) -> Plan {
     };
     Plan {
         along: "zoom",
-        ways: &[BenchMethod::Ours],
+        methods: &[BenchMethod::Ours],
         stages: zooms.iter().map(stage).collect(),
     }
 }
@@ -95,7 +95,7 @@ pub fn lights(base: Stage, quick: bool) -> Plan {
     };
     Plan {
         along: "lights",
-        ways: BOTH,
+        methods: BOTH,
         stages: counts.iter().map(stage).collect(),
     }
 }
@@ -111,7 +111,7 @@ pub fn pixels(base: Stage, quick: bool) -> Plan {
     };
     Plan {
         along: "pixels",
-        ways: BOTH,
+        methods: BOTH,
         stages: halves.iter().map(stage).collect(),
     }
 }
@@ -125,7 +125,7 @@ pub fn measure(
 ) -> Result<Curve, Failure> {
     let Plan {
         along,
-        ways,
+        methods,
         stages,
     } = plan;
     progress.restart(along);
@@ -134,16 +134,16 @@ pub fn measure(
     for (i, (x, stage)) in stages.into_iter().enumerate() {
         let scene = stage.build()?;
         let prepared = Prepared::new(&scene);
-        let ready: Vec<Result<Ready, Error>> = ways
+        let ready: Vec<Result<Ready, Error>> = methods
             .iter()
-            .map(|way| worker.ready(&scene, &prepared, &way.method()))
+            .map(|method| worker.ready(&scene, &prepared, &method.method()))
             .collect();
         let outcomes = by_turns(worker, &scene, &prepared, &ready, &thoroughness.effort)?;
-        points.extend(ways.iter().zip(outcomes).map(|(way, outcome)| Point {
+        points.extend(methods.iter().zip(outcomes).map(|(method, outcome)| Point {
             x,
-            way: *way,
+            way: *method,
             outcome,
-            counts: counted(&scene, &prepared, *way),
+            counts: counted(&scene, &prepared, *method),
         }));
         progress.set((i + 1) as f64 / count as f64);
     }

@@ -4,7 +4,7 @@ use hairline_cpu::closed_form::Counts;
 use serde::Serialize;
 
 use super::machine::Machine;
-use super::way::BenchMethod;
+use super::methods::BenchMethod;
 
 /// All figures of a benchmark.
 #[derive(Serialize)]

@@ -6,11 +6,11 @@ use hairline_scene::Scene;
 
 use super::error::{brightest, crop, errors, rim_of_reflection};
 use super::figures::{Cell, TableRow};
+use super::methods::BenchMethod;
 use super::stage::{Lamps, Stage};
 use super::talk::{ZOOMS, talk_ms};
 use super::thoroughness::Thoroughness;
 use super::timing::by_turns;
-use super::way::BenchMethod;
 use super::worker::{Ready, Worker, counted};
 use crate::progress::Progress;
 use hairline_render::failure::Failure;
@@ -93,20 +93,20 @@ impl Group<'_> {
         let prepared = Prepared::new(scene);
         let ready: Vec<Result<Ready, Error>> = BenchMethod::ALL
             .iter()
-            .map(|way| worker.ready(scene, &prepared, &way.method()))
+            .map(|method| worker.ready(scene, &prepared, &method.method()))
             .collect();
         let outcomes = by_turns(worker, scene, &prepared, &ready, &thoroughness.effort)?;
         let mut cells: Vec<Cell> = BenchMethod::ALL
             .into_iter()
             .zip(outcomes)
-            .map(|(way, outcome)| Cell {
+            .map(|(method, outcome)| Cell {
                 row,
                 zoom,
-                way,
+                way: method,
                 outcome,
                 error: None,
-                talk_ms: talk_ms(row, zoom, way),
-                counts: counted(scene, &prepared, way),
+                talk_ms: talk_ms(row, zoom, method),
+                counts: counted(scene, &prepared, method),
             })
             .collect();
         for antialiasing in [false, true] {

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use hairline_cpu::closed_form::Counts;
 
 use super::figures::{Cell, Curve, Figures, Outcome, TableRow};
+use super::methods::BenchMethod;
 use super::stage::TALK_SCRATCHES;
-use super::way::BenchMethod;
 
 /// Text of a cell where nothing was measured.
 const NOTHING: &str = "–";
@@ -59,24 +59,24 @@ fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
         if cells.is_empty() {
             continue;
         }
-        let cell = |way: BenchMethod, zoom: f64| {
+        let cell = |method: BenchMethod, zoom: f64| {
             let mut cells = cells.iter();
-            cells.find(|c| c.way == way && c.zoom == zoom)
+            cells.find(|c| c.way == method && c.zoom == zoom)
         };
         let mut zooms: Vec<f64> = cells.iter().map(|c| c.zoom).collect();
         zooms.dedup_by(|a, b| a == b);
         zooms.truncate(cells.len() / BenchMethod::ALL.len());
         let is_lit = cells.iter().any(|c| c.error.is_some());
-        let ms = |way, zoom| Some(cell(way, zoom)?.outcome.ms()?.median);
-        let time = |way, zoom| cell(way, zoom).map(|c| time(&c.outcome));
-        let ratio = |way, zoom| Some(digits(ms(way, zoom)? / ms(BenchMethod::Ours, zoom)?));
-        let error = |way, zoom| {
-            let error = cell(way, zoom)?.error.as_ref()?;
+        let ms = |method, zoom| Some(cell(method, zoom)?.outcome.ms()?.median);
+        let time = |method, zoom| cell(method, zoom).map(|c| time(&c.outcome));
+        let ratio = |method, zoom| Some(digits(ms(method, zoom)? / ms(BenchMethod::Ours, zoom)?));
+        let error = |method, zoom| {
+            let error = cell(method, zoom)?.error.as_ref()?;
             let [rms, noise] =
                 [error.relative_rms, error.standard_error].map(|e| digits(100.0 * e));
             Some(format!("{rms} ± {noise} %"))
         };
-        let talk = |way, zoom| Some(digits(cell(way, zoom)?.talk_ms?));
+        let talk = |method, zoom| Some(digits(cell(method, zoom)?.talk_ms?));
 
         let mut header = vec![row.name().to_owned()];
         let columns: &[&str] = match is_lit {
@@ -89,21 +89,21 @@ fn table(text: &mut String, figures: &Figures) -> std::fmt::Result {
                 .flat_map(|name| zooms.iter().map(move |zoom| format!("{name}, {zoom}x"))),
         );
         let mut lines = Vec::new();
-        for way in BenchMethod::ALL {
+        for method in BenchMethod::ALL {
             let of = |figure: &dyn Fn(BenchMethod, f64) -> Option<String>| -> Vec<String> {
-                let texts = zooms.iter().map(|zoom| figure(way, *zoom));
+                let texts = zooms.iter().map(|zoom| figure(method, *zoom));
                 texts
                     .map(|text| text.unwrap_or_else(|| NOTHING.to_owned()))
                     .collect()
             };
-            let mut line = vec![way.name().to_owned()];
+            let mut line = vec![method.name().to_owned()];
             line.extend(of(&time));
             line.extend(of(&ratio));
             if is_lit {
                 line.extend(of(&error));
             }
             lines.push(line);
-            if zooms.iter().any(|zoom| talk(way, *zoom).is_some()) {
+            if zooms.iter().any(|zoom| talk(method, *zoom).is_some()) {
                 let mut line = vec!["the talk, GTX 970M".to_owned()];
                 line.extend(of(&talk));
                 line.resize(header.len(), String::new());
@@ -184,28 +184,33 @@ fn curves(text: &mut String, figures: &Figures) -> std::fmt::Result {
 }
 
 fn lines(curve: &Curve) -> (Vec<String>, Vec<Vec<String>>) {
-    let there = |way: &BenchMethod| curve.points.iter().any(|point| point.way == *way);
-    let ways: Vec<BenchMethod> = BenchMethod::ALL.into_iter().filter(there).collect();
+    let there = |method: &BenchMethod| curve.points.iter().any(|point| point.way == *method);
+    let methods: Vec<BenchMethod> = BenchMethod::ALL.into_iter().filter(there).collect();
     let mut header = vec![curve.along.to_owned()];
-    header.extend(ways.iter().map(|way| format!("{}, ms", way.name())));
-    let is_compared = ways.contains(&BenchMethod::Filtered);
+    header.extend(
+        methods
+            .iter()
+            .map(|method| format!("{}, ms", method.name())),
+    );
+    let is_compared = methods.contains(&BenchMethod::Filtered);
     header.extend(is_compared.then(|| "published over ours".to_owned()));
     header.push("pairs".to_owned());
     header.push("ns a pair".to_owned());
     let mut xs: Vec<f64> = curve.points.iter().map(|point| point.x).collect();
     xs.dedup();
     let lines = xs.into_iter().map(|x| {
-        let at = |way: BenchMethod| {
+        let at = |method: BenchMethod| {
             let mut points = curve.points.iter();
-            points.find(|point| point.x == x && point.way == way)
+            points.find(|point| point.x == x && point.way == method)
         };
-        let ms = |way| Some(at(way)?.outcome.ms()?.median);
+        let ms = |method| Some(at(method)?.outcome.ms()?.median);
         let ours = || Some((ms(BenchMethod::Ours)?, at(BenchMethod::Ours)?.counts?.pairs));
         let or_nothing = |text: Option<String>| text.unwrap_or_else(|| NOTHING.to_owned());
         let mut line = vec![format!("{x}")];
         line.extend(
-            ways.iter()
-                .map(|way| or_nothing(at(*way).map(|p| time(&p.outcome)))),
+            methods
+                .iter()
+                .map(|method| or_nothing(at(*method).map(|p| time(&p.outcome)))),
         );
         if is_compared {
             let ratio = ms(BenchMethod::Filtered).zip(ms(BenchMethod::Ours));
@@ -234,9 +239,9 @@ fn refusals(text: &mut String, figures: &Figures) -> std::fmt::Result {
             .iter()
             .map(move |p| (what(p.x), p.way, &p.outcome))
     });
-    for (what, way, outcome) in cells.chain(points) {
+    for (what, method, outcome) in cells.chain(points) {
         if let Outcome::Refused(reason) = outcome {
-            writeln!(text, "\nRefused: {what}, {}: {reason}", way.name())?;
+            writeln!(text, "\nRefused: {what}, {}: {reason}", method.name())?;
         }
     }
     Ok(())

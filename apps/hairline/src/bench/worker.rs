@@ -13,7 +13,7 @@ use hairline_index::Pieces;
 use hairline_published::Method;
 use hairline_scene::Scene;
 
-use super::way::BenchMethod;
+use super::methods::BenchMethod;
 use hairline_render::failure::Failure;
 
 /// A renderer.
@@ -37,9 +37,9 @@ pub struct Ready {
     uploaded: Option<GpuScene>,
 }
 
-/// Counts of the work that `way` does for a picture, on the CPU; none for the published method.
-pub fn counted(scene: &Scene, prepared: &Prepared, way: BenchMethod) -> Option<Counts> {
-    (way == BenchMethod::Ours).then(|| {
+/// Counts of the work that `method` does for a picture, on the CPU; none for the published method.
+pub fn counted(scene: &Scene, prepared: &Prepared, method: BenchMethod) -> Option<Counts> {
+    (method == BenchMethod::Ours).then(|| {
         let options = RenderOptions::default();
         let rows = 0..scene.render.size_px[1];
         prepared.render_counted(&options, rows, &|_| {}).1

@@ -45,8 +45,10 @@ fn the_table_has_all_cells_and_says_on_what_it_was_measured() {
         assert_eq!(cell["talk_ms"].is_f64(), is_of_the_talk);
     }
     // The published method errs more than ours in every row.
-    let rms = |row: &str, way: &str| -> f64 {
-        let cells = cells.iter().filter(|c| c["row"] == row && c["way"] == way);
+    let rms = |row: &str, method: &str| -> f64 {
+        let cells = cells
+            .iter()
+            .filter(|c| c["row"] == row && c["method"] == method);
         let errors = cells.map(|cell| cell["error"]["relative_rms"].as_f64().unwrap());
         errors.fold(0.0, f64::max)
     };

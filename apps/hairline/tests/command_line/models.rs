@@ -18,12 +18,14 @@ fn write(folder: &Path, name: &str, x: [f32; 2], is_animated: bool, more: [&str;
     ];
     let positions = corners.iter().flat_map(|[x, y]| [*x, *y, 0.0]);
     let times = [0.0, 1.0];
-    let ways = [
+    let translations = [
         [0.0, 0.0, 0.0, 0.3, 0.0, 0.0],
         [0.3, 0.0, 0.0, 0.0, 0.0, 0.0],
     ];
     let indices = [0u32, 1, 2, 0, 2, 3].into_iter().flat_map(u32::to_le_bytes);
-    let numbers = positions.chain(times).chain(ways.into_iter().flatten());
+    let numbers = positions
+        .chain(times)
+        .chain(translations.into_iter().flatten());
     let bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).chain(indices).collect();
     std::fs::write(folder.join("a.bin"), &bytes).unwrap();
     let animations = r#""animations":[{"samplers":[{"input":1,"output":2},{"input":1,"output":3}],"channels":[

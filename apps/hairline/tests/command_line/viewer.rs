@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use hairline_document::{DEFAULT_TRANSPORT, Description};
 use hairline_image::Display;
-use hairline_viewer::engine::{Backend, Engine, Picture, View};
+use hairline_viewer::progressive::{Backend, Picture, ProgressiveRenderer, View};
 
 use crate::common::{folder_with, hairline, stderr_of};
 
@@ -41,20 +41,20 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
     let unfiltered = render("unfiltered.png", "--filter off");
 
     let description = Description::from_toml(SCENE, "scene.toml".as_ref()).unwrap();
-    let engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
-    engine.set_scene(1, Arc::new(description.clone()), PathBuf::new());
+    let renderer = ProgressiveRenderer::start(Backend::Cpu, Arc::new(|| {}));
+    renderer.set_scene(1, Arc::new(description.clone()), PathBuf::new());
     let start = Instant::now();
     let waited = || {
         assert!(start.elapsed() < PATIENCE, "no picture came");
         std::thread::sleep(Duration::from_millis(5));
     };
     let built = loop {
-        match engine.built() {
+        match renderer.built() {
             Some(built) => break built,
             None => waited(),
         }
     };
-    engine.set_view(View {
+    renderer.set_view(View {
         camera: built.scene.camera,
         size_px: description.render.size_px,
         display: Display {
@@ -67,7 +67,7 @@ fn a_view_that_stands_still_is_the_picture_that_is_rendered() {
         region: None,
     });
     let frame = loop {
-        match engine.latest() {
+        match renderer.latest() {
             Some(frame) if frame.painted.is_final => break frame,
             _ => waited(),
         }

@@ -48,8 +48,8 @@ impl Work<'_> {
                 if let Some((_, _, number)) = known.iter().find(alike) {
                     return Ok(Some(*number));
                 }
-                let way = format!("{key}.{name}");
-                let read = self.groove_picture(&way, file, kind, &mut textures.free_bytes)?;
+                let key_path = format!("{key}.{name}");
+                let read = self.groove_picture(&key_path, file, kind, &mut textures.free_bytes)?;
                 let number = textures.add(read);
                 known.push((file.clone(), kind, number));
                 Ok::<_, Error>(Some(number))

@@ -117,7 +117,7 @@ pub(super) struct KeptSurface {
 }
 
 impl KeptSurface {
-    /// `key` is the way to the object in the scene file; its textures may take `free_bytes`.
+    /// `key` is the path of the object in the scene file; its textures may take `free_bytes`.
     pub(super) fn read(
         loader: &Loader,
         surface_key: SurfaceKey,

@@ -27,7 +27,7 @@ pub(super) struct Surroundings<'a> {
     /// The file's own.
     pub materials: &'a [Material],
     pub parts: &'a [NodeTriangles],
-    /// The way to the layer in the scene file.
+    /// The path of the layer in the scene file.
     pub key: &'a str,
 }
 

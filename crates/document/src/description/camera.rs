@@ -264,7 +264,7 @@ pub(super) fn fov_y_deg(camera: &Table, [width, height]: [u32; 2]) -> Result<Opt
     let fov_y_deg = lens::seen_deg(focal_length_mm, sensor_mm, [width, height]);
     match camera.optional::<f64>("fov_y_deg")? {
         Some(given) if (given - fov_y_deg).abs() > ROUNDING_DEG => Err(Error::new(
-            camera.way("fov_y_deg"),
+            camera.key_path("fov_y_deg"),
             found(given),
             format!(
                 "{focal_length_mm} mm before a sensor {sensor_mm} mm wide see {fov_y_deg:.2} degrees of {width} x {height} pixels; \
@@ -284,7 +284,7 @@ pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
     Camera::F_STOP.check(SECTION, &f_stop)?;
     let Some(focal_length_mm) = camera.optional::<f64>("focal_length_mm")? else {
         return Err(Error::new(
-            camera.way("f_stop"),
+            camera.key_path("f_stop"),
             "found no `focal_length_mm` that it belongs to",
             "give the camera one, or `aperture_mm` in place of the f-stop",
         ));
@@ -292,7 +292,7 @@ pub(super) fn aperture_mm(camera: &Table) -> Result<Option<f64>, Error> {
     let aperture_mm = focal_length_mm / f_stop;
     match given {
         Some(given) if (given / aperture_mm - 1.0).abs() > ROUNDING => Err(Error::new(
-            camera.way("aperture_mm"),
+            camera.key_path("aperture_mm"),
             found(given),
             format!(
                 "{focal_length_mm} mm at f/{f_stop} have an opening of {aperture_mm:.3} mm; leave out one of them"
@@ -307,7 +307,7 @@ pub(super) fn focus_distance_m(camera: &Table) -> Result<Option<f64>, Error> {
     let given = camera.optional("focus_distance_m")?;
     if given.is_some() && !camera.has("aperture_mm") && !camera.has("f_stop") {
         return Err(Error::new(
-            camera.way("focus_distance_m"),
+            camera.key_path("focus_distance_m"),
             "found no opening that it belongs to",
             "give the camera an `aperture_mm` or an `f_stop`, or leave it out: all is in focus then",
         ));

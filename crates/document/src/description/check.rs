@@ -43,13 +43,17 @@ impl Description {
 fn unique<'n>(key: &str, names: impl Iterator<Item = &'n str>) -> Check {
     let mut seen = HashSet::new();
     for (i, name) in names.enumerate() {
-        let way = format!("{key}[{i}].name");
+        let key_path = format!("{key}[{i}].name");
         if name.is_empty() {
-            return Err(Error::new(way, "found an empty name", "must not be empty"));
+            return Err(Error::new(
+                key_path,
+                "found an empty name",
+                "must not be empty",
+            ));
         }
         if !seen.insert(name) {
             let found = format!("found a second {key} called \"{}\"", shown(name));
-            return Err(Error::new(way, found, "names must differ"));
+            return Err(Error::new(key_path, found, "names must differ"));
         }
     }
     Ok(())

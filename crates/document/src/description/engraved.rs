@@ -122,22 +122,22 @@ impl Line {
     }
 
     fn check_outlines(&self, key: &str) -> Check {
-        let way = format!("{key}.{}", self.key().name);
+        let key_path = format!("{key}.{}", self.key().name);
         match self {
-            Self::Curve { points_m, closed } => check_points(&way, points_m.len(), *closed),
-            Self::Text { text, .. } => check_letters(&way, text),
+            Self::Curve { points_m, closed } => check_points(&key_path, points_m.len(), *closed),
+            Self::Text { text, .. } => check_letters(&key_path, text),
             Self::Svg { .. } => Ok(()),
         }
     }
 }
 
-fn check_points(way: &str, count: usize, is_closed: bool) -> Check {
+fn check_points(key_path: &str, count: usize, is_closed: bool) -> Check {
     let (least, most) = CURVE_POINTS.into_inner();
     let least = if is_closed { least + 1 } else { least };
     match (least..=most).contains(&count) {
         true => Ok(()),
         false => Err(Error::new(
-            way,
+            key_path,
             format!("found {count} points"),
             format!("must be from {least} to {most}"),
         )),

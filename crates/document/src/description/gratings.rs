@@ -8,7 +8,7 @@ use toml::de::DeValue;
 
 use super::distribution::Distribution;
 use super::keyed::Keyed;
-use super::laid::{Around, Pattern};
+use super::laid::{Pattern, PatternAxis};
 use super::place::{MIDDLE, RADII, TILE};
 use super::ranges::{Check, check_radii, check_range};
 use super::table::{Read, Table, Value};
@@ -18,7 +18,7 @@ use crate::schema::Entry;
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(held, kinds = GroovePattern, of_kinds = OF_KINDS, check = Grating::check_companions)]
+#[keyed(own_reader, kinds = GroovePattern, of_kinds = OF_KINDS, check = Grating::check_companions)]
 pub struct Grating {
     /// What they cover.
     #[key(range_words("name of an object"))]
@@ -101,16 +101,16 @@ pub enum GroovePattern {
     },
     /// Around an axis.
     #[kind("circular")]
-    Circular(#[flat(AROUND)] Around),
+    Circular(#[flat(AROUND)] PatternAxis),
     /// Away from an axis.
     #[kind("radial")]
-    Radial(#[flat(AROUND)] Around),
+    Radial(#[flat(AROUND)] PatternAxis),
     /// Arcs of one curvature that leave the axis in all directions.
     #[kind("spun")]
     Spun {
         /// The axis.
         #[flat(AROUND)]
-        around: Around,
+        around: PatternAxis,
         /// One over the radius of the arcs; its sign is the sense of the spiral.
         #[key(unit("1/m").number(20.0).in_range(-1e4, 1e4)
             .control("Curvature", linear(-50.0, 50.0).sized_by(-1), "One over the radius of the arcs. 0 is straight. Bent scratches turn through many directions, so each lights up over a shorter piece, and more of them light up at once."))]
@@ -121,7 +121,7 @@ pub enum GroovePattern {
     Swirl {
         /// The axis. It passes through the middle of one of the spots.
         #[flat(AROUND)]
-        around: Around,
+        around: PatternAxis,
         /// From spot to spot, and from row to row. Metres of the world, whatever the object's `scale`. The radius of a spot is 0.75 of it. Where
         /// spots are smaller than a pixel, it shows the mean of all their directions.
         #[key(unit("m").number(0.004).size()
@@ -151,8 +151,8 @@ const OF_KINDS: &[(&str, &[Entry])] = &[
 
 /// The keys of an axis, of which a grating's angle says its own.
 const AROUND: &[Entry] = &[
-    Entry::Key(Around::AXIS),
-    Entry::Key(Around::CENTER_M),
+    Entry::Key(PatternAxis::AXIS),
+    Entry::Key(PatternAxis::CENTER_M),
     Entry::Key(GroovePattern::JITTER_DEG),
 ];
 
@@ -188,7 +188,7 @@ named! { UvAxis {
 
 impl GroovePattern {
     /// The axis, if it has one.
-    pub fn axis(&self) -> Option<&Around> {
+    pub fn axis(&self) -> Option<&PatternAxis> {
         match self {
             Self::Circular(around)
             | Self::Radial(around)
@@ -305,7 +305,7 @@ mod tests {
     #[test]
     fn what_is_left_out_has_defaults_and_what_is_saved_loads_again() {
         let described = Description::from_toml(&text(DISC), "test".as_ref()).unwrap();
-        let disc = Grating::new("o", GroovePattern::Circular(Around::default()), 1.6);
+        let disc = Grating::new("o", GroovePattern::Circular(PatternAxis::default()), 1.6);
         assert_eq!(described.gratings, [disc]);
         let all = "object = \"o\"\nname = \"n\"\nhidden = true\npattern = \"spun\"\naxis = [0, 1, 0]\n\
             center_m = [0, 0, 0.1]\njitter_deg = 2.0\ncurvature_per_m = 10.0\npitch_um = 3.0\nwidth_um = 1.0\n\

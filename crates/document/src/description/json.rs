@@ -112,7 +112,7 @@ fn json_of(value: toml::Value) -> Value {
     }
 }
 
-/// Writes a value of TOML, whose numbers are written as those of JSON. `key` is the way to it.
+/// Writes a value of TOML, whose numbers are written as those of JSON. `key` is its path.
 fn write_value(text: &mut String, value: &Value, key: &str) -> Result<(), Error> {
     match value {
         Value::Null => {

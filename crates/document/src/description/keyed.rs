@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::panel::{Panel, Rows};
 use super::ranges::Check;
-use super::table::{Held, Table};
+use super::table::{KeyValue, Table};
 use crate::error::Error;
 use crate::schema::section::keys;
 use crate::schema::{Choice, Entry, Initial, Key};
@@ -18,8 +18,8 @@ pub(crate) trait Keyed: Sized {
     /// Reads the fields.
     fn read_keys(table: &Table) -> Result<Self, Error>;
 
-    /// Refuses what is out of range; `way` is the way to the table.
-    fn check_keys(&self, way: &str) -> Check;
+    /// Refuses what is out of range; `key_path` leads to the table.
+    fn check_keys(&self, key_path: &str) -> Check;
 
     /// Writes the fields that say more than their keys left out.
     fn write_keys<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error>;
@@ -53,13 +53,13 @@ impl<T: Keyed> Serialize for Inner<'_, T> {
 }
 
 impl Key {
-    /// Refuses a value out of range; `way` is the way to the table.
-    pub(crate) fn check<T: Held>(&self, way: &str, value: &T) -> Check {
-        value.check_at(self, &format!("{way}.{}", self.name))
+    /// Refuses a value out of range; `key_path` leads to the table.
+    pub(crate) fn check<T: KeyValue>(&self, key_path: &str, value: &T) -> Check {
+        value.check_at(self, &format!("{key_path}.{}", self.name))
     }
 
     /// Writes a value, if it says more than the key left out.
-    pub(crate) fn write<T: Held, M: SerializeMap>(
+    pub(crate) fn write<T: KeyValue, M: SerializeMap>(
         &self,
         value: &T,
         map: &mut M,
@@ -75,7 +75,7 @@ impl Key {
     }
 
     /// Shows a value that has a control.
-    pub(crate) fn row<T: Held>(&'static self, value: &mut T, panel: &mut dyn Panel) {
+    pub(crate) fn row<T: KeyValue>(&'static self, value: &mut T, panel: &mut dyn Panel) {
         if self.control.is_some()
             && let Some(value) = value.row()
         {
@@ -96,8 +96,9 @@ impl<T: Keyed> Keyed for Option<T> {
         }
     }
 
-    fn check_keys(&self, way: &str) -> Check {
-        self.as_ref().map_or(Ok(()), |part| part.check_keys(way))
+    fn check_keys(&self, key_path: &str) -> Check {
+        self.as_ref()
+            .map_or(Ok(()), |part| part.check_keys(key_path))
     }
 
     fn write_keys<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {

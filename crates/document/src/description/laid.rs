@@ -16,7 +16,7 @@ use crate::schema::key::{Bounds, Form, linear};
 #[keyed(default)]
 pub struct Brushed {
     /// Standard deviation of a scratch's angle to its stroke.
-    #[key(= Around::JITTER_DEG)]
+    #[key(= PatternAxis::JITTER_DEG)]
     pub jitter_deg: f64,
     /// See [`Laid::seed`].
     #[key(= Laid::SEED)]
@@ -106,22 +106,22 @@ pub enum Pattern {
         #[key(is(Initial::Numbers(&[1.0, 0.0, 0.0])).direction()
             .control("Direction", linear(-1.0, 1.0), "Where the scratches run, in the object's own frame. Lamps are drawn out into streaks across it."))]
         direction: [f64; 3],
-        /// As of [`Around`].
-        #[key(= Around::JITTER_DEG)]
+        /// As of [`PatternAxis`].
+        #[key(= PatternAxis::JITTER_DEG)]
         jitter_deg: f64,
     },
     /// Rings and arcs around an axis: a turned pan, a plate wiped in circles. A lamp draws a fan through the centre.
     #[kind("circular")]
-    Circular(Around),
+    Circular(PatternAxis),
     /// Straight away from an axis: the sunburst of a watch dial.
     #[kind("radial")]
-    Radial(Around),
+    Radial(PatternAxis),
     /// Equal arcs that sweep from the axis to the rim, all turning the same way: ground wafers, spiral-brushed watch parts.
     #[kind("spun")]
     Spun {
         /// The axis.
         #[flat]
-        around: Around,
+        around: PatternAxis,
         /// One over the radius of the tool; its sign is the sense of the spiral.
         #[key(TOOL_PER_M: like(&CURVATURE_PER_M).number(20.0))]
         curvature_per_m: Distribution,
@@ -145,7 +145,7 @@ const CURVATURE_PER_M: Key = Key::new("curvature_per_m", Form::Sizes)
 /// An axis that a pattern turns about.
 #[derive(Clone, Copy, Debug, PartialEq, Keyed)]
 #[keyed(default)]
-pub struct Around {
+pub struct PatternAxis {
     /// Direction of the axis.
     #[key(is(Initial::Numbers(&[0.0, 0.0, 1.0])).direction()
         .control("Axis", linear(-1.0, 1.0), "The direction that the pattern turns about, in the object's own frame."))]

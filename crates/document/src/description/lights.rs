@@ -266,7 +266,7 @@ fn cone(table: &Table) -> Result<Option<Cone>, Error> {
     let Some(cone_deg) = table.value(Cone::CONE_DEG)? else {
         return match own.iter().find(|key| table.has(key.name)) {
             Some(key) => Err(Error::new(
-                table.way(key.name),
+                table.key_path(key.name),
                 "found no cone that it belongs to",
                 "give the light a `cone_deg`, or leave it out",
             )),

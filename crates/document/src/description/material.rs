@@ -218,7 +218,7 @@ fn part<T: Keyed>(
         (true, _) => T::read_keys(table).map(Some),
         (false, false) => Ok(None),
         (false, true) => Err(Error::new(
-            table.way(second.name),
+            table.key_path(second.name),
             format!("found no `{}` beside it", first.name),
             format!("add one, such as `{such_as}`"),
         )),

@@ -11,14 +11,14 @@ use super::keyed::Keyed;
 use super::overrides::Override;
 use super::ranges::{Check, Numbers, Take};
 use super::shapes::Shape;
-use super::table::{Held, Read, Table, Value};
+use super::table::{KeyValue, Read, Table, Value};
 use super::values::named;
 use crate::error::Error;
 use crate::schema::{Form, Initial};
 
 /// `[[object]]`
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(held, check = Object::check_companions)]
+#[keyed(own_reader, check = Object::check_companions)]
 pub struct Object {
     /// What scratches call it by.
     #[key(range_words("not empty, no two equal"))]
@@ -166,7 +166,7 @@ impl Serialize for ScaleFactors {
     }
 }
 
-impl Held for ScaleFactors {
+impl KeyValue for ScaleFactors {
     const FORM: Form = Form::OneOrNumbers(3);
 
     fn initial(initial: Initial) -> Option<Self> {
@@ -220,7 +220,7 @@ impl Read for Object {
         let extra = of_meshes.iter().find(|key| table.has(key.name));
         match (&object.surface, extra) {
             (Surface::Shape(_), Some(extra)) => Err(Error::new(
-                table.way(extra.name),
+                table.key_path(extra.name),
                 "a shape has no such key",
                 "it belongs to an object with a `mesh`",
             )),

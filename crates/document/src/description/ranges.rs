@@ -30,7 +30,7 @@ pub(super) fn finite(key: &str, value: f64) -> Check {
     }
 }
 
-/// Takes a number of a key with what its way ends with, and whether it is the second of two that differ.
+/// Takes a number of a key with what its path ends with, and whether it is the second of two that differ.
 pub(crate) type Take<'t> = dyn FnMut(&str, f64, bool) -> Check + 't;
 
 /// Numbers of a value; other values have none.
@@ -96,8 +96,8 @@ impl<T: Numbers> Numbers for Option<T> {
 }
 
 impl Key {
-    /// Refuses numbers beyond the key's bounds; `way` is the way to the value.
-    pub(super) fn check_numbers(&self, way: &str, numbers: &(impl Numbers + ?Sized)) -> Check {
+    /// Refuses numbers beyond the key's bounds; `key_path` leads to the value.
+    pub(super) fn check_numbers(&self, key_path: &str, numbers: &(impl Numbers + ?Sized)) -> Check {
         let mut is_zero = self.bounds == Bounds::Direction;
         numbers.each(&mut |end, number, is_second| {
             is_zero &= number.abs() <= 1e-6;
@@ -105,11 +105,11 @@ impl Key {
                 (Some(second), true) => second.bounds,
                 _ => self.bounds,
             };
-            bounds.check(&format!("{way}{end}"), number)
+            bounds.check(&format!("{key_path}{end}"), number)
         })?;
         match is_zero {
             true => Err(Error::new(
-                way,
+                key_path,
                 "found no direction: all three numbers are 0",
                 "must point somewhere",
             )),
@@ -119,7 +119,7 @@ impl Key {
 }
 
 impl Bounds {
-    /// Refuses a number beyond them; `key` is the way to it.
+    /// Refuses a number beyond them; `key` is its path.
     pub(super) fn check(self, key: &str, number: f64) -> Check {
         finite(key, number)?;
         let must = |is_right: bool, right: &str| match is_right {
@@ -162,11 +162,11 @@ pub(super) fn check_range(key: &str, value: f64, range: RangeInclusive<f64>) -> 
 /// Largest seed: TOML's integers end there.
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 
-/// Checks a whole number; `way` is the way to it.
-pub(super) fn check_whole(number: u64, way: &str) -> Check {
+/// Checks a whole number; `key_path` leads to it.
+pub(super) fn check_whole(number: u64, key_path: &str) -> Check {
     match number > LARGEST_SEED {
         true => Err(Error::new(
-            way,
+            key_path,
             format!("found {number}"),
             "must be below 2^63",
         )),
@@ -198,18 +198,18 @@ pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check)
 /// Depths of one profile.
 const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
 
-/// Checks a cross section; `way` is the way to it.
-pub(super) fn check_profile(section: &Section, key: &Key, way: &str) -> Check {
+/// Checks a cross section; `key_path` is the way to it.
+pub(super) fn check_profile(section: &Section, key: &Key, key_path: &str) -> Check {
     let Section::Listed(depths) = section else {
         return Ok(());
     };
-    let wrong = |found: String, right: String| Err(Error::new(way, found, right));
+    let wrong = |found: String, right: String| Err(Error::new(key_path, found, right));
     if !PROFILE_DEPTHS.contains(&depths.len()) {
         let (least, most) = PROFILE_DEPTHS.into_inner();
         let right = format!("must be from {least} to {most}, from the middle to the rim");
         return wrong(format!("found {} depths", depths.len()), right);
     }
-    key.check_numbers(way, &depths[..])?;
+    key.check_numbers(key_path, &depths[..])?;
     match depths.iter().all(|depth| *depth == 0.0) {
         true => wrong(
             "found no depth but 0".to_owned(),

@@ -14,7 +14,7 @@ use crate::schema::section::keys;
 
 /// `[render]`
 #[derive(Clone, Debug, PartialEq, Keyed)]
-#[keyed(held, default, check = Render::check_bits)]
+#[keyed(own_reader, default, check = Render::check_bits)]
 pub struct Render {
     /// Width and height.
     #[key(unit("pixels").is(Initial::Numbers(&[1280.0, 720.0])).in_range(1.0, 16_384.0)
@@ -82,7 +82,7 @@ impl Read for Render {
         if let Some(bits) = table.get(Self::PNG_BITS.name)
             && !matches!(bits.get_ref(), DeValue::Integer(_))
         {
-            let key = table.way(Self::PNG_BITS.name);
+            let key = table.key_path(Self::PNG_BITS.name);
             return Err(wrong_type(bits, &key, "8 or 16"));
         }
         Self::read_keys(&table)

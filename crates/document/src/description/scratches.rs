@@ -198,12 +198,12 @@ impl Keyed for Layer {
         })
     }
 
-    fn check_keys(&self, way: &str) -> Check {
+    fn check_keys(&self, key_path: &str) -> Check {
         match self {
-            Self::Laid(laid) => laid.check_keys(way),
-            Self::Brushed(brushed) => brushed.check_keys(way),
-            Self::Engraved(engraved) => engraved.check_keys(way),
-            Self::Listed(listed) => listed.check_keys(way),
+            Self::Laid(laid) => laid.check_keys(key_path),
+            Self::Brushed(brushed) => brushed.check_keys(key_path),
+            Self::Engraved(engraved) => engraved.check_keys(key_path),
+            Self::Listed(listed) => listed.check_keys(key_path),
         }
     }
 

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::keyed::{Inner, Keyed, Kinds};
 use super::ranges::{Check, Numbers, found, written};
-use super::table::{Held, Read, Table, Value};
+use super::table::{KeyValue, Read, Table, Value};
 use crate::error::Error;
 use crate::schema::KindKeys;
 use crate::schema::key::{Form, Initial, Key, LARGEST_M, linear, log};
@@ -205,9 +205,9 @@ impl Shape {
         }
     }
 
-    /// Refuses shapes that cannot be; `table` is the way to their keys.
+    /// Refuses shapes that cannot be; `table` is the path of their keys.
     fn check_proportions(&self, table: &str) -> Check {
-        let way = |key: &Key| format!("{table}.{}", key.name);
+        let key_path = |key: &Key| format!("{table}.{}", key.name);
         if let Some((key, value, most, words)) = self.clone().bounded()
             && *value > most
         {
@@ -217,14 +217,14 @@ impl Shape {
                 }
                 _ => format!("must be at most {words}: {}", written(most)),
             };
-            return Err(Error::new(way(key), found(*value), right));
+            return Err(Error::new(key_path(key), found(*value), right));
         }
         match self {
-            Self::Text { line, .. } => check_letters(&way(Self::LINE), line),
+            Self::Text { line, .. } => check_letters(&key_path(Self::LINE), line),
             Self::Lathe { profile_m, .. } if profile_m.len() < 2 => {
                 let found = format!("found {} points", profile_m.len());
                 let right = "must be at least two";
-                Err(Error::new(way(Self::PROFILE_M), found, right))
+                Err(Error::new(key_path(Self::PROFILE_M), found, right))
             }
             _ => Ok(()),
         }
@@ -241,7 +241,7 @@ fn half_of_the_most(sweep: &Table) -> Result<f64, Error> {
 /// Characters of a text.
 const CHARACTERS_MOST: usize = 200;
 
-/// Refuses a line of text that the built-in font cannot write; `key` is the way to it.
+/// Refuses a line of text that the built-in font cannot write; `key` is its path.
 pub(super) fn check_letters(key: &str, line: &str) -> Check {
     let count = line.chars().count();
     if line.trim().is_empty() || count > CHARACTERS_MOST {
@@ -272,22 +272,22 @@ impl Read for Shape {
             return Err(Error::new(key, found, right));
         };
         let value = outer.get(choice.name).expect("the kind was found just now");
-        let table = Table::read_entries(choice.entries, value, &outer.way(choice.name))?;
+        let table = Table::read_entries(choice.entries, value, &outer.key_path(choice.name))?;
         Self::read_keys(&table.with_kind(choice.name))
     }
 }
 
 impl Numbers for Shape {}
 
-impl Held for Shape {
+impl KeyValue for Shape {
     const FORM: Form = Form::Table;
 
     fn initial(_: Initial) -> Option<Self> {
         None
     }
 
-    fn check_at(&self, _: &Key, way: &str) -> Check {
-        self.check_keys(&format!("{way}.{}", self.name()))
+    fn check_at(&self, _: &Key, key_path: &str) -> Check {
+        self.check_keys(&format!("{key_path}.{}", self.name()))
     }
 
     fn written(&self) -> impl Serialize {

@@ -124,7 +124,7 @@ impl Keyed for Brush {
             return match keys.iter().find(|key| table.has(key.name)) {
                 None => Ok(Self::Erase),
                 Some(extra) => Err(Error::new(
-                    table.way(extra.name),
+                    table.key_path(extra.name),
                     "an erasing stroke has no such key",
                     "leave it out, or leave out `erase = true`",
                 )),
@@ -149,8 +149,8 @@ impl Keyed for Brush {
         })
     }
 
-    fn check_keys(&self, way: &str) -> Check {
-        self.paint().check_keys(way)
+    fn check_keys(&self, key_path: &str) -> Check {
+        self.paint().check_keys(key_path)
     }
 
     fn write_keys<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {

@@ -21,12 +21,12 @@ pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
 
 /// Something that a scene file can hold as a value.
 pub(crate) trait Read: Sized {
-    /// `key` is the way to the value, for errors.
+    /// `key` is the path of the value, for errors.
     fn read(value: &Value, key: &str) -> Result<Self, Error>;
 }
 
 /// A value of a key.
-pub(crate) trait Held: Read + Numbers + PartialEq {
+pub(crate) trait KeyValue: Read + Numbers + PartialEq {
     /// Its form in a file.
     const FORM: Form;
 
@@ -38,9 +38,9 @@ pub(crate) trait Held: Read + Numbers + PartialEq {
         Self::initial(initial).is_some_and(|value| value == *self)
     }
 
-    /// Refuses what is out of range; `way` is the way to the value.
-    fn check_at(&self, key: &Key, way: &str) -> Check {
-        key.check_numbers(way, self)
+    /// Refuses what is out of range; `key_path` leads to the value.
+    fn check_at(&self, key: &Key, key_path: &str) -> Check {
+        key.check_numbers(key_path, self)
     }
 
     /// Whether it is nothing that a file could say.
@@ -62,7 +62,7 @@ impl Key {
     ///
     /// # Panics
     /// Where the key has none of this type: that is seen in the first test that asks.
-    pub(crate) fn initial<T: Held>(&self) -> T {
+    pub(crate) fn initial<T: KeyValue>(&self) -> T {
         T::initial(self.initial).unwrap_or_else(|| panic!("{} has no initial value", self.name))
     }
 }
@@ -91,7 +91,11 @@ impl<'a> Table<'a> {
             let name = name.get_ref().as_ref();
             if !known.contains(&name) {
                 let right = hint::instead_of_key(name, number(value.get_ref()), known);
-                return Err(Error::new(table.way(&shown(name)), "unknown key", right));
+                return Err(Error::new(
+                    table.key_path(&shown(name)),
+                    "unknown key",
+                    right,
+                ));
             }
         }
         Ok(table)
@@ -151,7 +155,7 @@ impl<'a> Table<'a> {
                 value.is_some() && !shared.contains(&name.get_ref().as_ref())
             });
             if let Some((name, _)) = misnamed {
-                let key = unchecked.way(&shown(name.get_ref()));
+                let key = unchecked.key_path(&shown(name.get_ref()));
                 let right = format!("did you mean `{tag}`?");
                 return Err(Error::new(key, "unknown key", right));
             }
@@ -163,7 +167,7 @@ impl<'a> Table<'a> {
             ));
         };
         let names: Vec<_> = kinds.iter().map(|(name, _)| (*name, *name)).collect();
-        let kind = one_of(tag_value, &unchecked.way(tag), &names)?;
+        let kind = one_of(tag_value, &unchecked.key_path(tag), &names)?;
         let own = kinds.iter().find(|(name, _)| *name == kind);
         let known = [shared, own.map_or(&[][..], |(_, own)| own)].concat();
         for name in entries.keys().map(|name| name.get_ref().as_ref()) {
@@ -171,7 +175,7 @@ impl<'a> Table<'a> {
             let owners: Vec<_> = owners.map(|(owner, _)| *owner).collect();
             if !known.contains(&name) && !owners.is_empty() {
                 return Err(Error::new(
-                    unchecked.way(name),
+                    unchecked.key_path(name),
                     format!("{tag} `{kind}` has no such key"),
                     format!("it belongs to {}", hint::list(owners)),
                 ));
@@ -203,12 +207,12 @@ impl<'a> Table<'a> {
         self.entries.contains_key(name)
     }
 
-    /// The way to it.
+    /// The path of its key.
     pub(super) fn key(&self) -> &str {
         &self.key
     }
 
-    pub(super) fn way(&self, name: &str) -> String {
+    pub(super) fn key_path(&self, name: &str) -> String {
         match self.key.as_str() {
             "" => name.to_owned(),
             key => format!("{key}.{name}"),
@@ -217,7 +221,7 @@ impl<'a> Table<'a> {
 
     pub(super) fn optional<T: Read>(&self, name: &str) -> Result<Option<T>, Error> {
         self.get(name)
-            .map(|value| T::read(value, &self.way(name)))
+            .map(|value| T::read(value, &self.key_path(name)))
             .transpose()
     }
 
@@ -240,7 +244,7 @@ impl<'a> Table<'a> {
     }
 
     /// The value of a key, or its initial one. A key of other kinds than this one has its initial value.
-    pub(super) fn value<T: Held>(&self, key: &Key) -> Result<T, Error> {
+    pub(super) fn value<T: KeyValue>(&self, key: &Key) -> Result<T, Error> {
         let found = match self.known.contains(&key.name) {
             true => self.optional(key.name)?,
             false => None,
@@ -283,9 +287,9 @@ fn key_names(keys: Vec<&'static Key>) -> Vec<&'static str> {
 }
 
 /// Values that a file writes as they are.
-macro_rules! held {
+macro_rules! plain_values {
     ($($Type:ty: $form:expr, $initial:pat => $value:expr, $row:ident;)*) => {
-        $(impl Held for $Type {
+        $(impl KeyValue for $Type {
             const FORM: Form = $form;
 
             fn initial(initial: Initial) -> Option<Self> {
@@ -306,22 +310,22 @@ macro_rules! held {
     };
 }
 
-held! {
+plain_values! {
     f64: Form::Number, Initial::Number(number) => number, Number;
     u32: Form::Whole, Initial::Number(number) => number as Self, Count;
     bool: Form::Flag, Initial::Flag(flag) => flag, Flag;
     String: Form::Text, Initial::Text(text) => text.to_owned(), Text;
 }
 
-impl Held for u64 {
+impl KeyValue for u64 {
     const FORM: Form = Form::Whole;
 
     fn initial(initial: Initial) -> Option<Self> {
         f64::initial(initial).map(|number| number as Self)
     }
 
-    fn check_at(&self, _: &Key, way: &str) -> Check {
-        check_whole(*self, way)
+    fn check_at(&self, _: &Key, key_path: &str) -> Check {
+        check_whole(*self, key_path)
     }
 
     fn written(&self) -> impl Serialize {
@@ -333,7 +337,7 @@ impl Held for u64 {
     }
 }
 
-impl Held for PathBuf {
+impl KeyValue for PathBuf {
     const FORM: Form = Form::File;
 
     fn initial(_: Initial) -> Option<Self> {
@@ -345,7 +349,7 @@ impl Held for PathBuf {
     }
 }
 
-impl<const N: usize> Held for [f64; N] {
+impl<const N: usize> KeyValue for [f64; N] {
     const FORM: Form = Form::Numbers(N);
 
     fn initial(initial: Initial) -> Option<Self> {
@@ -364,7 +368,7 @@ impl<const N: usize> Held for [f64; N] {
     }
 }
 
-impl Held for [[f64; 3]; 2] {
+impl KeyValue for [[f64; 3]; 2] {
     const FORM: Form = Form::Points(3);
 
     fn initial(_: Initial) -> Option<Self> {
@@ -376,7 +380,7 @@ impl Held for [[f64; 3]; 2] {
     }
 }
 
-impl<const N: usize> Held for [u32; N] {
+impl<const N: usize> KeyValue for [u32; N] {
     const FORM: Form = Form::Wholes(N);
 
     fn initial(initial: Initial) -> Option<Self> {
@@ -388,7 +392,7 @@ impl<const N: usize> Held for [u32; N] {
     }
 }
 
-impl<T: Named> Held for T {
+impl<T: Named> KeyValue for T {
     const FORM: Form = Form::Name(T::TEXTS);
 
     fn initial(initial: Initial) -> Option<Self> {
@@ -404,16 +408,16 @@ impl<T: Named> Held for T {
     }
 }
 
-impl<T: Held> Held for Option<T> {
+impl<T: KeyValue> KeyValue for Option<T> {
     const FORM: Form = T::FORM;
 
     fn initial(_: Initial) -> Option<Self> {
         Some(None)
     }
 
-    fn check_at(&self, key: &Key, way: &str) -> Check {
+    fn check_at(&self, key: &Key, key_path: &str) -> Check {
         self.as_ref()
-            .map_or(Ok(()), |value| value.check_at(key, way))
+            .map_or(Ok(()), |value| value.check_at(key, key_path))
     }
 
     fn is_left_out(&self) -> bool {
@@ -429,15 +433,15 @@ impl<T: Held> Held for Option<T> {
     }
 }
 
-impl Held for Section {
+impl KeyValue for Section {
     const FORM: Form = Form::NameOrNumbers(&PROFILES);
 
     fn initial(_: Initial) -> Option<Self> {
         Some(Self::default())
     }
 
-    fn check_at(&self, key: &Key, way: &str) -> Check {
-        check_profile(self, key, way)
+    fn check_at(&self, key: &Key, key_path: &str) -> Check {
+        check_profile(self, key, key_path)
     }
 
     fn written(&self) -> impl Serialize {
@@ -467,7 +471,7 @@ impl Read for Section {
     }
 }
 
-impl<T: Held> Held for Vec<T> {
+impl<T: KeyValue> KeyValue for Vec<T> {
     const FORM: Form = match T::FORM {
         Form::Numbers(count) => Form::Points(count),
         Form::Table => Form::Tables,
@@ -478,8 +482,10 @@ impl<T: Held> Held for Vec<T> {
         matches!(initial, Initial::Words(_)).then(Vec::new)
     }
 
-    fn check_at(&self, key: &Key, way: &str) -> Check {
-        each(way, self, |value, way| value.check_at(key, way))
+    fn check_at(&self, key: &Key, key_path: &str) -> Check {
+        each(key_path, self, |value, key_path| {
+            value.check_at(key, key_path)
+        })
     }
 
     fn is_left_out(&self) -> bool {
@@ -513,7 +519,7 @@ impl Read for Distribution {
     }
 }
 
-impl Held for Distribution {
+impl KeyValue for Distribution {
     const FORM: Form = Form::Sizes;
 
     fn initial(initial: Initial) -> Option<Self> {

@@ -20,7 +20,7 @@ pub(super) enum Named {
     Model,
 }
 
-/// Values of a scene's tables that name something else, with the ways to them.
+/// Values of a scene's tables that name something else, with the paths of their keys.
 pub(super) fn named(tables: &mut Map<String, Value>) -> Vec<(String, Named, &mut Value)> {
     let mut found = Vec::new();
     for (table, value) in tables.iter_mut() {
@@ -32,23 +32,23 @@ pub(super) fn named(tables: &mut Map<String, Value>) -> Vec<(String, Named, &mut
 /// Values of the rows of a table, or of a single table.
 fn of_rows<'v>(
     table: &str,
-    way: &str,
+    key_path: &str,
     value: &'v mut Value,
     found: &mut Vec<(String, Named, &'v mut Value)>,
 ) {
     match value {
         Value::Array(rows) => {
             for (i, row) in rows.iter_mut().enumerate() {
-                of_table(table, &format!("{way}[{i}]"), row, found);
+                of_table(table, &format!("{key_path}[{i}]"), row, found);
             }
         }
-        single => of_table(table, way, single, found),
+        single => of_table(table, key_path, single, found),
     }
 }
 
 fn of_table<'v>(
     table: &str,
-    way: &str,
+    key_path: &str,
     value: &'v mut Value,
     found: &mut Vec<(String, Named, &'v mut Value)>,
 ) {
@@ -57,14 +57,14 @@ fn of_table<'v>(
     };
     let is_drawing = members.get("pattern").is_some_and(|it| it == "svg");
     for (key, value) in members {
-        let way = format!("{way}.{key}");
+        let key_path = format!("{key_path}.{key}");
         let named = match (table, key.as_str()) {
             ("scratches", "where") | ("look", "environment") => {
-                of_table(key, &way, value, found);
+                of_table(key, &key_path, value, found);
                 continue;
             }
             ("look", "light") => {
-                of_rows(key, &way, value, found);
+                of_rows(key, &key_path, value, found);
                 continue;
             }
             ("object", "mesh") => Named::Model,
@@ -77,7 +77,7 @@ fn of_table<'v>(
             | ("light", "picture") => Named::File,
             _ => continue,
         };
-        found.push((way, named, value));
+        found.push((key_path, named, value));
     }
 }
 

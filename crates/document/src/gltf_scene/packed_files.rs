@@ -73,7 +73,8 @@ fn bytes_of(outer: &FilePath, name: &str) -> Option<Vec<u8>> {
             .map(Vec::from);
     }
     let mut lists = named(&mut extension).into_iter();
-    let list = lists.find(|(way, kind, _)| *kind == Named::Scratches && list_name(way) == name);
+    let list =
+        lists.find(|(key_path, kind, _)| *kind == Named::Scratches && list_name(key_path) == name);
     let (_, _, list) = list?;
     Some(scratch_lists::read(&file, list).ok()?.into_bytes())
 }
@@ -107,8 +108,8 @@ pub(super) fn view(extension: &Map<String, Value>, number: usize) -> Result<usiz
     })
 }
 
-/// Name of the file that a list of scratches is, by the way to its key: `scratches[2].file`.
-pub(super) fn list_name(way: &str) -> String {
-    let digits: String = way.chars().filter(char::is_ascii_digit).collect();
+/// Name of the file that a list of scratches is, by the path of its key: `scratches[2].file`.
+pub(super) fn list_name(key_path: &str) -> String {
+    let digits: String = key_path.chars().filter(char::is_ascii_digit).collect();
     format!("scratches-{digits}.csv")
 }

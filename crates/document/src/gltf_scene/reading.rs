@@ -23,7 +23,7 @@ pub fn is_in(path: impl Into<FilePath>) -> bool {
 /// The scene that a glTF file holds; none where it holds a model alone. What its scene names lies in the file, below its own name.
 ///
 /// # Errors
-/// What is wrong with the scene, by the way to it in the file.
+/// What is wrong with the scene, by the path of its key in the file.
 pub(crate) fn read(path: &FilePath) -> Option<Result<Description, Error>> {
     let extension = gltf_file::extension(path, EXTENSION)?;
     let read = described(path, extension);
@@ -60,13 +60,13 @@ fn described(path: &FilePath, extension: Value) -> Result<Description, Error> {
     forget_laid(&mut tables);
     let folder = path.file_name().unwrap_or_default();
     let folder = folder.to_string_lossy();
-    for (way, kind, value) in named(&mut tables) {
-        let wrong = |flaw: Flaw| Error::new(&way, flaw.found, flaw.right);
+    for (key_path, kind, value) in named(&mut tables) {
+        let wrong = |flaw: Flaw| Error::new(&key_path, flaw.found, flaw.right);
         let name = match kind {
             Named::File => name_of(&file, &extension, value).map_err(wrong)?,
             Named::Scratches => {
                 scratch_lists::read(&file, value).map_err(wrong)?;
-                list_name(&way)
+                list_name(&key_path)
             }
             Named::Model => {
                 let name = value.as_str().unwrap_or_default().to_owned();

@@ -139,15 +139,15 @@ impl Packed<'_> {
         models: &[Option<String>],
     ) -> Result<(), Error> {
         let mut models = models.iter().flatten();
-        for (way, kind, value) in named(tables) {
+        for (key_path, kind, value) in named(tables) {
             let path = PathBuf::from(value.as_str().unwrap_or_default());
             *value = match kind {
                 Named::Model => json!(models.next()),
-                Named::File => json!(self.picture(&path, &way)?),
+                Named::File => json!(self.picture(&path, &key_path)?),
                 Named::Scratches => match self.loader.arrays.scratches(&path) {
                     Some(arrays) => scratch_lists::write_arrays(self.file, arrays),
                     None => {
-                        let table = way.trim_end_matches(".file");
+                        let table = key_path.trim_end_matches(".file");
                         let path = self.base_dir.join(&path);
                         scratch_lists::write_file(self.file, &path, table)?
                     }
@@ -159,14 +159,18 @@ impl Packed<'_> {
     }
 
     /// Number of a file among the extension's.
-    fn picture(&mut self, path: &Path, way: &str) -> Result<usize, Error> {
+    fn picture(&mut self, path: &Path, key_path: &str) -> Result<usize, Error> {
         if let Some(number) = self.known.get(path) {
             return Ok(*number);
         }
         let bytes = reading::read(&self.base_dir.join(path), FileKind::File, FILE_SHARE);
         let bytes = bytes.map_err(|why| {
             let found = format!("\"{}\" cannot be read ({why})", path.display());
-            Error::new(way, found, "must be a file, relative to the scene file")
+            Error::new(
+                key_path,
+                found,
+                "must be a file, relative to the scene file",
+            )
         })?;
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let is_taken = |name: &str| self.files.iter().any(|it| it["name"] == name);

@@ -107,19 +107,23 @@ impl Writer<'_> {
         self.looks.insert(number, look);
         let maps: Vec<_> = maps(material)
             .into_iter()
-            .filter_map(|(way, texture, factor)| Some((way, self.texture(texture?), factor)))
+            .filter_map(|(json_path, texture, factor)| {
+                Some((json_path, self.texture(texture?), factor))
+            })
             .collect();
         let Some(written) = self.file.element_mut("materials", look) else {
             return look;
         };
         // Triangles are seen from both sides.
         written["doubleSided"] = json!(true);
-        for (way, (texture, set), factor) in maps {
+        for (json_path, (texture, set), factor) in maps {
             let mut info = json!({ "index": texture, "texCoord": set });
             if let Some((name, factor)) = factor {
                 info[name] = json!(factor);
             }
-            *way.iter().fold(&mut *written, |at, key| &mut at[*key]) = info;
+            *json_path
+                .iter()
+                .fold(&mut *written, |at, key| &mut at[*key]) = info;
         }
         look
     }
@@ -155,22 +159,24 @@ fn sampler(texture: &Texture) -> Value {
     json!({ "wrapS": s, "wrapT": t, "magFilter": seen_large, "minFilter": LINEAR_MIPS })
 }
 
-/// The way to a texture in the JSON of a material.
-type Way = &'static [&'static str];
+/// The path of a texture in the JSON of a material.
+type JsonPath = &'static [&'static str];
 /// A texture, and whether it is a normal map.
 type Map = Option<(usize, bool)>;
 /// What its values are multiplied with, by its name.
 type Factor = Option<(&'static str, f64)>;
 
 /// The textures of a material: where each goes, its number, and what its values are multiplied with.
-fn maps(material: &Material) -> Vec<(Way, Map, Factor)> {
+fn maps(material: &Material) -> Vec<(JsonPath, Map, Factor)> {
     const COAT: &str = "KHR_materials_clearcoat";
     const SPECULAR: &str = "KHR_materials_specular";
-    let plain = |way: Way, texture: Option<usize>| (way, texture.map(|it| (it, false)), None);
-    let scaled = |way: Way, texture: Option<(usize, f64)>, name: &'static str| {
+    let plain = |json_path: JsonPath, texture: Option<usize>| {
+        (json_path, texture.map(|it| (it, false)), None)
+    };
+    let scaled = |json_path: JsonPath, texture: Option<(usize, f64)>, name: &'static str| {
         let are_normals = name == "scale";
         let map = texture.map(|(it, _)| (it, are_normals));
-        (way, map, texture.map(|(_, factor)| (name, factor)))
+        (json_path, map, texture.map(|(_, factor)| (name, factor)))
     };
     let [coat, coat_roughness] = material.coat_textures;
     let [specular, specular_color] = material.specular_textures;
@@ -211,12 +217,12 @@ fn maps(material: &Material) -> Vec<(Way, Map, Factor)> {
         ]);
     }
     if material.anisotropy.is_some() {
-        let way: Way = &[
+        let json_path: JsonPath = &[
             "extensions",
             "KHR_materials_anisotropy",
             "anisotropyTexture",
         ];
-        maps.push(plain(way, material.anisotropy_texture));
+        maps.push(plain(json_path, material.anisotropy_texture));
     }
     maps
 }

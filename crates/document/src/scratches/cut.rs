@@ -91,15 +91,15 @@ fn part(walker: &Walker, segment: &Segment, [from, to]: [f64; 2]) -> Option<Segm
     })
 }
 
-/// Interval of t in which |offset + t way| is below the radius.
-pub(super) fn ball(offset: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
+/// Interval of t in which |offset + t span| is below the radius.
+pub(super) fn ball(offset: DVec3, span: DVec3, radius_m: f64) -> Option<[f64; 2]> {
     let outside = offset.length_squared() - radius_m * radius_m;
-    let squared = way.length_squared();
-    // Also where nothing changes along the way, but for rounding.
+    let squared = span.length_squared();
+    // Also where nothing changes along the span, but for rounding.
     if squared <= 1e-24 * radius_m * radius_m {
         return (outside < 0.0).then_some([f64::NEG_INFINITY, f64::INFINITY]);
     }
-    let middle = -offset.dot(way) / squared;
+    let middle = -offset.dot(span) / squared;
     let half_squared = middle * middle - outside / squared;
     (half_squared > 0.0).then(|| {
         let half = libm::sqrt(half_squared);

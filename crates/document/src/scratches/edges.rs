@@ -118,10 +118,10 @@ impl Edges {
     }
 }
 
-/// Angle by which a surface bends at an edge, positive where it is convex. `way` is along the edge with the first triangle to the left.
-fn angle_rad([first, second]: [DVec3; 2], way: DVec3) -> f64 {
+/// Angle by which a surface bends at an edge, positive where it is convex. `axis` is along the edge with the first triangle to the left.
+fn angle_rad([first, second]: [DVec3; 2], axis: DVec3) -> f64 {
     let cos = first.dot(second);
-    let sin = first.cross(second).dot(way.normalize_or_zero());
+    let sin = first.cross(second).dot(axis.normalize_or_zero());
     let angle_rad = libm::atan2(sin, cos);
     // A sheet that is folded onto itself bends by half a turn outwards, whichever way it was rounded.
     match cos < -0.9999 {

@@ -68,7 +68,7 @@ struct Run {
 }
 
 impl<'a> Engraving<'a> {
-    /// `table` is the way to the layer.
+    /// `table` is the path of the layer.
     pub(super) fn new(
         loader: &Loader,
         layer: &'a Engraved,
@@ -191,8 +191,8 @@ impl<'a> Engraving<'a> {
         let angle_rad = PI * stream.uniform();
         let at = ends_m.partition_point(|end_m| *end_m < along_m);
         let (segment, end_m) = (segments.get(at)?, ends_m.get(at)?);
-        let way = (segment.end_m - segment.start_m).as_dvec3();
-        let tangent = way.try_normalize()?;
+        let span = (segment.end_m - segment.start_m).as_dvec3();
+        let tangent = span.try_normalize()?;
         let point_m = segment.end_m.as_dvec3() - (end_m - along_m) * tangent;
         let (place, _) = self.ground.closest().find(point_m);
         let facet = Facet::new(&self.ground.mesh, place.triangle);
@@ -290,15 +290,15 @@ struct Plate<'a> {
 }
 
 impl<'a> Plate<'a> {
-    /// `key` is the way to the layer.
+    /// `key` is the path of the layer.
     fn new(
         ground: &'a Ground,
         center_m: [f64; 3],
         direction: [f64; 3],
         key: &str,
     ) -> Result<Self, Error> {
-        let way = || format!("{key}.{}", Line::MIDDLE_M.name);
-        ground.refuse_far(center_m, ground.diagonal_m, way)?;
+        let key_path = || format!("{key}.{}", Line::MIDDLE_M.name);
+        ground.refuse_far(center_m, ground.diagonal_m, key_path)?;
         let (middle, _) = ground.closest().find(ground.point_in_world_m(center_m));
         let facet = Facet::new(&ground.mesh, middle.triangle);
         let along = facet.in_plane(ground.direction_in_world(direction));
@@ -438,9 +438,9 @@ fn moved(ground: &Ground, mut point_m: DVec3, along: DVec3) -> DVec3 {
         if off_m == 0.0 || slope.abs() < LEAST_ACROSS {
             break;
         }
-        let way_m = (spot.point_m - point_m).dot(normal) / slope;
-        point_m += along * way_m;
-        if way_m.abs() < 1e-12 {
+        let along_m = (spot.point_m - point_m).dot(normal) / slope;
+        point_m += along * along_m;
+        if along_m.abs() < 1e-12 {
             break;
         }
     }

@@ -118,17 +118,17 @@ impl Eraser {
 impl Capsule {
     /// The part of a line from `start` to `end` that is inside, within 0 to 1.
     fn covered(&self, start: DVec3, end: DVec3) -> Option<[f64; 2]> {
-        let way = end - start;
+        let span = end - start;
         let axis = self.ends_m[1] - self.ends_m[0];
         let length_m = axis.length();
         let balls = self
             .ends_m
             .iter()
-            .filter_map(|center| ball(start - center, way, self.radius_m));
+            .filter_map(|center| ball(start - center, span, self.radius_m));
         let tube = axis.try_normalize().and_then(|axis| {
             let offset = start - self.ends_m[0];
-            let (height, rise) = (offset.dot(axis), way.dot(axis));
-            let around = ball(offset - axis * height, way - axis * rise, self.radius_m)?;
+            let (height, rise) = (offset.dot(axis), span.dot(axis));
+            let around = ball(offset - axis * height, span - axis * rise, self.radius_m)?;
             let between = slab(height, rise, length_m)?;
             Some([around[0].max(between[0]), around[1].min(between[1])])
                 .filter(|[from, to]| from < to)

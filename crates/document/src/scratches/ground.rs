@@ -86,7 +86,7 @@ impl Ground {
         off.length() <= BESIDE_M || beside.length() <= BESIDE_SINE * off.length()
     }
 
-    /// Refuses a point that is farther than `most_m` from the box about the object; `key` is the way to it.
+    /// Refuses a point that is farther than `most_m` from the box about the object; `key` is its path.
     pub(super) fn refuse_far(
         &self,
         point: [f64; 3],

@@ -110,10 +110,10 @@ impl Guide {
                 reversed,
             ),
             Guide::Towards { end_m } => {
-                let way = facet.in_plane(end_m - point_m);
-                (way.length() > NO_DIRECTION_M).then(|| Aim {
-                    reach_m: way.length(),
-                    ..Aim::straight(way.normalize())
+                let offset = facet.in_plane(end_m - point_m);
+                (offset.length() > NO_DIRECTION_M).then(|| Aim {
+                    reach_m: offset.length(),
+                    ..Aim::straight(offset.normalize())
                 })
             }
         }

@@ -51,7 +51,7 @@ pub(crate) fn list_header(has_numbers: bool) -> String {
     names.join(",")
 }
 
-/// Reads all rows. `key` is the way to the layer's table in the scene file.
+/// Reads all rows. `key` is the path of the layer's table in the scene file.
 pub(crate) fn read(path: &FilePath, key: &str) -> Result<Vec<ListedRow>, Error> {
     // The rows take about as much as the text, twice.
     let text = reading::read(path, FileKind::File, 1.0 / 6.0).map_err(|error| {
@@ -221,7 +221,7 @@ impl<'a> Listed<'a> {
         })
     }
 
-    /// Reads scratches from arrays in memory. `key` is the way to the layer's table in the scene.
+    /// Reads scratches from arrays in memory. `key` is the path of the layer's table in the scene.
     pub(super) fn of_arrays(
         loader: &Loader,
         arrays: &ScratchArrays,

@@ -38,7 +38,7 @@ pub(super) fn letters(line: &str, height_m: f64) -> Vec<Stamp> {
     stamps.collect()
 }
 
-/// The outlines of an SVG file, as large as `fit_m`: of what is `held` in its place, if anything is. `key` is the way to its name in the scene file.
+/// The outlines of an SVG file, as large as `fit_m`: of what is `held` in its place, if anything is. `key` is the path of its name in the scene file.
 pub(super) fn drawing(
     held: Option<&[u8]>,
     path: &FilePath,

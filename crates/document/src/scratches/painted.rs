@@ -1,6 +1,6 @@
 //! A layer whose scratches lie along the strokes of a brush.
 //!
-//! Scratches are strewn evenly: each has its own share of the stroke, in which its middle lies anywhere. So a stroke that is
+//! Scratches are scattered evenly: each has its own share of the stroke, in which its middle lies anywhere. So a stroke that is
 //! still being drawn keeps the scratches it has.
 
 use std::f64::consts::TAU;
@@ -201,15 +201,15 @@ impl Path {
         // The last share may reach beyond the end, since the count is rounded.
         let length_m = self.lengths_m[self.lengths_m.len() - 1];
         let share_m = (nth as f64 + along) / self.density_per_m;
-        let way_m = match share_m < length_m {
+        let along_m = match share_m < length_m {
             true => share_m,
             false => along * length_m,
         };
-        let next = self.lengths_m.partition_point(|length| *length <= way_m);
+        let next = self.lengths_m.partition_point(|length| *length <= along_m);
         let next = next.clamp(1, self.points_m.len() - 1);
         let (from, to) = (self.points_m[next - 1], self.points_m[next]);
         let step_m = self.lengths_m[next] - self.lengths_m[next - 1];
-        let middle_m = from.lerp(to, (way_m - self.lengths_m[next - 1]) / step_m);
+        let middle_m = from.lerp(to, (along_m - self.lengths_m[next - 1]) / step_m);
         let tangent = (to - from) / step_m;
         let normal = normal_at(middle_m)?;
         let sideways = normal

@@ -52,7 +52,7 @@ struct LookUp {
 }
 
 impl<'a> GroundPlaces<'a> {
-    /// Makes the places of a layer; `None` if it lies everywhere. `key` is the way to the layer.
+    /// Makes the places of a layer; `None` if it lies everywhere. `key` is the path of the layer.
     ///
     /// # Errors
     /// Pictures on an object without texture coordinates, edges that are too narrow for it.
@@ -115,8 +115,8 @@ impl<'a> GroundPlaces<'a> {
     pub(super) fn elsewhere(&self, segment: &Segment, parts: &mut RemovedParts) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         if let Some([least_m, most_m]) = self.radii_m {
-            let (offset, way) = (start - self.center_m, end - start);
-            let within = |radius_m| ball(offset, way, radius_m).unwrap_or([1.0; 2]);
+            let (offset, span) = (start - self.center_m, end - start);
+            let within = |radius_m| ball(offset, span, radius_m).unwrap_or([1.0; 2]);
             let [from, to] = within(most_m);
             let outside = [[0.0, from], [to, 1.0]];
             let all = outside.into_iter().chain([within(least_m)]);

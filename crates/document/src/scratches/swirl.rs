@@ -1,4 +1,4 @@
-//! Centres of swirls, strewn through space: one at a random place in each cell of a lattice as wide as a swirl's radius. A
+//! Centres of swirls, scattered through space: one at a random place in each cell of a lattice as wide as a swirl's radius. A
 //! scratch finds those around it without a list of all, however large the surface.
 
 use glam::DVec3;

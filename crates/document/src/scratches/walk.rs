@@ -211,9 +211,9 @@ impl<'a> Walker<'a> {
             }
             let walked_m = length_m - left_m;
             if spot.triangle == start.triangle
-                && let Some(way_m) = closes(&arc, start, start_direction, walked_m, reach_m)
+                && let Some(along_m) = closes(&arc, start, start_direction, walked_m, reach_m)
             {
-                push_chords(&mut pieces, spot.triangle, &arc, way_m);
+                push_chords(&mut pieces, spot.triangle, &arc, along_m);
                 return (pieces, Course::Closed);
             }
             push_chords(&mut pieces, spot.triangle, &arc, reach_m);
@@ -358,10 +358,10 @@ fn closes(
     if walked_m <= tolerance_m {
         return None;
     }
-    let (way_m, miss_m) = arc.nearest(start.point_m);
-    let met = (-tolerance_m..=reach_m + tolerance_m).contains(&way_m) && miss_m < tolerance_m;
-    let is_along = || arc.point_and_tangent(way_m).1.dot(start_direction) > 0.999;
-    (met && is_along()).then(|| way_m.max(0.0))
+    let (along_m, miss_m) = arc.nearest(start.point_m);
+    let met = (-tolerance_m..=reach_m + tolerance_m).contains(&along_m) && miss_m < tolerance_m;
+    let is_along = || arc.point_and_tangent(along_m).1.dot(start_direction) > 0.999;
+    (met && is_along()).then(|| along_m.max(0.0))
 }
 
 /// Cuts an arc into chords of equal length.
@@ -399,8 +399,8 @@ impl StraightPiece {
 
     /// Whether the next piece goes on in the same triangle and the same direction.
     fn continues_straight(&self, next: &StraightPiece) -> bool {
-        let (way, next_way) = (self.end_m - self.start_m, next.end_m - next.start_m);
-        let turn = way.cross(next_way).length();
-        self.triangle == next.triangle && turn <= 1e-9 * way.length() * next_way.length()
+        let (step, next_step) = (self.end_m - self.start_m, next.end_m - next.start_m);
+        let turn = step.cross(next_step).length();
+        self.triangle == next.triangle && turn <= 1e-9 * step.length() * next_step.length()
     }
 }

@@ -26,10 +26,10 @@ pub(super) struct Profile {
 impl Profile {
     /// Adds a straight line, unless it has no length.
     pub(super) fn line(mut self, from_m: DVec2, to_m: DVec2) -> Self {
-        if let Some(way) = (to_m - from_m).try_normalize() {
+        if let Some(direction) = (to_m - from_m).try_normalize() {
             self.pieces.push([from_m, to_m].map(|point_m| ProfileEnd {
                 point_m,
-                normal: way.perp(),
+                normal: direction.perp(),
             }));
         }
         self
@@ -61,21 +61,21 @@ impl Profile {
         self
     }
 
-    /// Each piece with the parts of the whole way at its ends.
-    fn with_ways(&self) -> impl Iterator<Item = ([ProfileEnd; 2], [f64; 2])> {
+    /// Each piece with the shares of the whole length at its ends.
+    fn with_shares(&self) -> impl Iterator<Item = ([ProfileEnd; 2], [f64; 2])> {
         let length = |[a, b]: &[ProfileEnd; 2]| a.point_m.distance(b.point_m);
         let total: f64 = self.pieces.iter().map(length).sum();
-        self.pieces.iter().scan(0.0, move |way_m, piece| {
-            let from_m = *way_m;
-            *way_m += length(piece);
-            Some((*piece, [from_m / total, *way_m / total]))
+        self.pieces.iter().scan(0.0, move |along_m, piece| {
+            let from_m = *along_m;
+            *along_m += length(piece);
+            Some((*piece, [from_m / total, *along_m / total]))
         })
     }
 
     /// Turned about z. u runs around, v along the profile; flat ends have a texture of their own.
     pub(super) fn turned(&self, segments: u32) -> Surface {
         let mut surface = Surface::default();
-        for (ends, v) in self.with_ways() {
+        for (ends, v) in self.with_shares() {
             let [from, to] = ends.map(|end| end.point_m);
             match is_floor(from, to) {
                 true => {
@@ -91,15 +91,15 @@ impl Profile {
     /// Drawn along x, about the origin, with r along y. The texture stands upright as seen from -y.
     pub(super) fn swept(&self, width_m: f64) -> Surface {
         let mut surface = Surface::default();
-        for (ends, way) in self.with_ways() {
+        for (ends, share) in self.with_shares() {
             let first = surface.vertices.len() as u32;
-            for (end, way) in ends.into_iter().zip(way) {
+            for (end, share) in ends.into_iter().zip(share) {
                 for x in [-0.5, 0.5] {
                     surface.vertices.push(Vertex {
                         position_m: DVec3::new(x * width_m, end.point_m.x, end.point_m.y),
                         normal: DVec3::new(0.0, end.normal.x, end.normal.y),
                         tangent: DVec3::X,
-                        uv: Vec2::new((0.5 + x) as f32, (1.0 - way) as f32),
+                        uv: Vec2::new((0.5 + x) as f32, (1.0 - share) as f32),
                         ..Vertex::default()
                     });
                 }

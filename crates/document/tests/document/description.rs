@@ -71,7 +71,7 @@ fn the_example_loads_again_after_it_was_saved() {
 
 /// Every variant of everything, with numbers that are hard to write down.
 fn everything() -> Description {
-    let around = Around {
+    let around = PatternAxis {
         axis: [0.0, -1.0, 1e-3],
         center_m: [0.1 + 0.2, -0.0, 1e-17],
         jitter_deg: 89.9,
@@ -86,7 +86,7 @@ fn everything() -> Description {
             jitter_deg: 0.0,
         },
         Pattern::Circular(around),
-        Pattern::Radial(Around::default()),
+        Pattern::Radial(PatternAxis::default()),
         Pattern::Spun {
             around,
             curvature_per_m: drawn(0.0, 0.0),
@@ -300,7 +300,11 @@ fn everything() -> Description {
                 seed: 9,
                 coverage: 0.75,
                 radius_m: Some([0.0, 0.5]),
-                ..Grating::new("object 1", GroovePattern::Circular(Around::default()), 1.6)
+                ..Grating::new(
+                    "object 1",
+                    GroovePattern::Circular(PatternAxis::default()),
+                    1.6,
+                )
             },
         ],
         lights: vec![
@@ -441,7 +445,7 @@ mod round_trip {
             it.materials[0].name = name.clone();
             it.scratches[2] = Scratches::new(name, Layer::Laid(Laid {
                     pattern: Pattern::Spun {
-                        around: Around { axis, center_m: center, jitter_deg: spread },
+                        around: PatternAxis { axis, center_m: center, jitter_deg: spread },
                         curvature_per_m: Distribution { mean, spread },
                     },
                     amount: Amount::DensityPerM2(mean),
@@ -524,7 +528,7 @@ fn defaults_are_those_of_the_documentation() {
     let drawn = |mean, spread| Distribution { mean, spread };
     let laid = Laid {
         pattern: Pattern::Spun {
-            around: Around {
+            around: PatternAxis {
                 axis: [0.0, 0.0, 1.0],
                 center_m: [0.0; 3],
                 jitter_deg: 0.0,

@@ -107,9 +107,9 @@ fn a_wide_line_is_filled() {
                 "{point}"
             );
         }
-        let way = (end - start).as_dvec3().truncate();
-        area_m2 += 8e-6 * way.length();
-        let unit = way.normalize();
+        let span = (end - start).as_dvec3().truncate();
+        area_m2 += 8e-6 * span.length();
+        let unit = span.normalize();
         twice += glam::DVec2::new(unit.x * unit.x - unit.y * unit.y, 2.0 * unit.x * unit.y);
     }
     let count = object.scratches.len() as f64;

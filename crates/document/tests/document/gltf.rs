@@ -1051,10 +1051,10 @@ fn a_slanted_model_fills_its_picture() {
     let scene = hairline_document::build(&description, dir.path()).unwrap();
     let frame = scene.camera.frame(scene.render.size_px);
     let seen = |point: &Vec3| {
-        let way = point.as_dvec3() - frame.position_m;
-        let across = |step: DVec3| way.dot(step) / step.length_squared();
+        let offset = point.as_dvec3() - frame.position_m;
+        let across = |step: DVec3| offset.dot(step) / step.length_squared();
         let at = DVec2::new(across(frame.per_px_x), across(frame.per_px_y));
-        at / way.dot(frame.forward) / frame.size_px + DVec2::splat(0.5)
+        at / offset.dot(frame.forward) / frame.size_px + DVec2::splat(0.5)
     };
     let points = scene.objects[0].mesh.positions_m.iter().map(seen);
     let (least, most) = points.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(a, b), p| {

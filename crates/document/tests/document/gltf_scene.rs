@@ -154,13 +154,13 @@ fn cube_file(dir: &Path) -> PathBuf {
     let positions = glb.floats(&corners.map_each(|x| x * 0.1 + 0.012_345_678));
     let indices = glb.indices(&triangles);
     let times = glb.floats(&[[0.0f32], [1.0]]);
-    let ways = glb.floats(&[[0.0f32, 0.0, 0.0], [0.3, 0.0, 0.0]]);
+    let translations = glb.floats(&[[0.0f32, 0.0, 0.0], [0.3, 0.0, 0.0]]);
     glb.more = format!(
         r#","materials":[{{"name":"a","pbrMetallicRoughness":{{"metallicFactor":1,"roughnessFactor":0.123456789012345678}}}},{{"name":"unused"}}],
         "cameras":[{{"name":"own","type":"perspective","perspective":{{"yfov":0.6,"znear":0.1}}}}],
         "extensionsUsed":["KHR_lights_punctual"],
         "extensions":{{"KHR_lights_punctual":{{"lights":[{{"type":"point","intensity":20}}]}}}},
-        "animations":[{{"samplers":[{{"input":{times},"output":{ways}}}],"channels":[{{"sampler":0,"target":{{"node":1,"path":"translation"}}}}]}}]"#
+        "animations":[{{"samplers":[{{"input":{times},"output":{translations}}}],"channels":[{{"sampler":0,"target":{{"node":1,"path":"translation"}}}}]}}]"#
     );
     let mesh = format!(
         r#"{{"primitives":[{{"attributes":{{"POSITION":{positions}}},"indices":{indices},"material":0}}]}}"#

@@ -59,10 +59,10 @@ fn a_sun_stands_in_one_direction_and_sends_what_its_irradiance_says() {
         let sun = in_scene(light);
         let (center_m, radius_m) = sun.bounding_sphere();
         for at_m in [DVec3::ZERO, DVec3::new(3.0, -2.0, 1.0)] {
-            let way = center_m - at_m;
+            let offset = center_m - at_m;
             // A scene of some metres is a point beside it.
-            assert!(way.normalize().distance(towards_it) < 1e-4);
-            let sin = radius_m / way.length();
+            assert!(offset.normalize().distance(towards_it) < 1e-4);
+            let sin = radius_m / offset.length();
             assert!((2.0 * sin.asin().to_degrees() / angle_deg - 1.0).abs() < 1e-4);
             for (radiance, expected) in sun.radiance.into_iter().zip([4.0, 2.0, 1.0]) {
                 let irradiance = PI * radiance * sin * sin;

@@ -207,13 +207,13 @@ fn extensions_change_what_a_surface_reflects() {
     // The same image lies in two ways.
     let by_other = [0, 1].map(|i| textured.textures[i].sampling.by_other_uvs);
     assert_eq!(by_other, [false, true]);
-    let (ways, normals) = (
+    let (normal_map, normals) = (
         r#""normalTexture":{"index":2}"#,
         r#""index":2,"texCoord":1,"scale":0.5"#,
     );
     let bumpy = scene(
         &format!(
-            r#"{plastic},{ways},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":1,"clearcoatNormalTexture":{{{normals}}}}}}}"#
+            r#"{plastic},{normal_map},"extensions":{{"KHR_materials_clearcoat":{{"clearcoatFactor":1,"clearcoatNormalTexture":{{{normals}}}}}}}"#
         ),
         "",
     );

@@ -244,8 +244,8 @@ fn parallel_scratches_keep_their_direction() {
         .segments
         .iter()
         .map(|s| {
-            let way = (s.end_m - s.start_m).as_dvec3();
-            (-way.x / way.y).atan().to_degrees()
+            let chord = (s.end_m - s.start_m).as_dvec3();
+            (-chord.x / chord.y).atan().to_degrees()
         })
         .collect();
     let variance = angles.iter().map(|a| a * a).sum::<f64>() / angles.len() as f64;
@@ -282,8 +282,8 @@ fn spun_scratches_are_arcs_through_the_axis() {
     let radius = 1.0 / 15.0;
     for s in object.segments.iter() {
         let (start, end) = (s.start_m.as_dvec3(), s.end_m.as_dvec3());
-        let way = (end - start).normalize();
-        let left = DVec3::Z.cross(way);
+        let direction = (end - start).normalize();
+        let left = DVec3::Z.cross(direction);
         // Short pieces know their direction to 1e-8 / length only; so do those near the axis, where the field turns fast.
         if start.distance(end) < 1e-5 || start.length() < 1e-3 {
             continue;

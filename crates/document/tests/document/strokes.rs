@@ -102,8 +102,8 @@ fn middle_m(object: &Object, scratch: &Scratch) -> DVec3 {
 fn distance_m(p: DVec3, line: &[[f64; 3]]) -> f64 {
     let points: Vec<_> = line.iter().map(|p| DVec3::from_array(*p)).collect();
     let of_pair = |pair: &[DVec3]| {
-        let way = pair[1] - pair[0];
-        let share = (p - pair[0]).dot(way) / way.length_squared();
+        let step = pair[1] - pair[0];
+        let share = (p - pair[0]).dot(step) / step.length_squared();
         p.distance(pair[0].lerp(pair[1], share.clamp(0.0, 1.0)))
     };
     let pairs = points.windows(2).map(of_pair);
@@ -127,11 +127,11 @@ fn a_stroke_lays_its_scratches_along_itself() {
         farthest = farthest.max(off);
         sideways += off;
         let pieces = segments(&it, scratch);
-        let way = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
-        assert!((way.length() - 1e-3).abs() < 1e-8, "{}", way.length());
+        let chord = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
+        assert!((chord.length() - 1e-3).abs() < 1e-8, "{}", chord.length());
         // Along x or along y, by where it lies.
-        let along_x = way.x.abs() > 0.999 * way.length();
-        let along_y = way.y.abs() > 0.999 * way.length();
+        let along_x = chord.x.abs() > 0.999 * chord.length();
+        let along_y = chord.y.abs() > 0.999 * chord.length();
         assert!(along_x || along_y);
         on_first += usize::from(along_x);
         assert_eq!(
@@ -172,9 +172,9 @@ fn dabs_factors_and_jitter() {
         assert!(off < 0.01 + 1e-8);
         inner += usize::from(off < 0.005);
         let pieces = segments(&it, scratch);
-        let way = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
+        let chord = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
         // Twice the angle: a scratch has no front.
-        turns += DVec2::from_angle(2.0 * way.y.atan2(way.x)) / 1000.0;
+        turns += DVec2::from_angle(2.0 * chord.y.atan2(chord.x)) / 1000.0;
     }
     // A quarter of the area: standard error 14.
     assert!((inner as f64 - 250.0).abs() < 60.0, "{inner}");
@@ -195,8 +195,8 @@ fn dabs_factors_and_jitter() {
     );
     let squares = it.scratches.iter().map(|scratch| {
         let pieces = segments(&it, scratch);
-        let way = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
-        (way.y / way.x).atan().to_degrees().powi(2)
+        let chord = (pieces[pieces.len() - 1].end_m - pieces[0].start_m).as_dvec3();
+        (chord.y / chord.x).atan().to_degrees().powi(2)
     });
     let deviation = (squares.sum::<f64>() / it.scratches.len() as f64).sqrt();
     // 2000 of them: a standard error of 0.16.
@@ -302,7 +302,7 @@ fn a_ring_that_is_cut_is_open_and_in_one_piece() {
     let Layer::Laid(mut laid) = strewn(40, 1) else {
         unreachable!()
     };
-    laid.pattern = Pattern::Circular(Around::default());
+    laid.pattern = Pattern::Circular(PatternAxis::default());
     laid.length_m.mean = 10.0;
     let layer_with = |strokes| vec![layer(Layer::Laid(laid.clone()), strokes)];
     let whole = built(DISK, layer_with(vec![]));

@@ -41,14 +41,14 @@ fn object() -> Object {
 }
 
 /// Distance of a point from a path of straight pieces.
-fn distance_to_way(point: DVec3, way: &[DVec3]) -> f64 {
+fn distance_to_path(point: DVec3, path: &[DVec3]) -> f64 {
     let to_piece = |a: DVec3, b: DVec3| {
         let t = ((point - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
         let t = if t.is_nan() { 0.0 } else { t };
         point.distance(a + (b - a) * t)
     };
-    let pieces = way.windows(2).map(|p| to_piece(p[0], p[1]));
-    pieces.fold(point.distance(way[0]), f64::min)
+    let pieces = path.windows(2).map(|p| to_piece(p[0], p[1]));
+    pieces.fold(point.distance(path[0]), f64::min)
 }
 
 proptest! {
@@ -67,28 +67,28 @@ proptest! {
         for (x, y) in steps {
             at += dvec3(x, y, 0.3 * x) * fine;
             pointer.push(at);
-            let before = recorder.way_m().len();
-            prop_assert_eq!(recorder.add(at), recorder.way_m().len() > before);
+            let before = recorder.path_m().len();
+            prop_assert_eq!(recorder.add(at), recorder.path_m().len() > before);
         }
-        let way = recorder.way_m().to_vec();
-        for pair in way.windows(2) {
+        let path = recorder.path_m().to_vec();
+        for pair in path.windows(2) {
             let spacing = pair[0].distance(pair[1]) / RADIUS_M;
             prop_assert!((0.1249..0.5001).contains(&spacing), "{}", spacing);
         }
         let stroke = recorder.finish().unwrap();
-        prop_assert!(stroke.points_m.len() <= way.len());
+        prop_assert!(stroke.points_m.len() <= path.len());
         let drawn: Vec<_> = stroke.points_m.iter().map(|&p| world_from_object.transform_point3(p.into())).collect();
         // 1/20 of the radius for the thinning and a little for the rounding.
-        for point in &way {
-            prop_assert!(distance_to_way(*point, &drawn) < 0.053 * RADIUS_M);
+        for point in &path {
+            prop_assert!(distance_to_path(*point, &drawn) < 0.053 * RADIUS_M);
         }
         // Movements of the pointer within an eighth of the radius may be left out.
         for point in &pointer {
-            prop_assert!(distance_to_way(*point, &drawn) < 0.18 * RADIUS_M);
+            prop_assert!(distance_to_path(*point, &drawn) < 0.18 * RADIUS_M);
         }
         // The bound means something: another stroke breaks it.
         let far: Vec<_> = drawn.iter().map(|p| *p + dvec3(0.0, 0.0, 0.06 * RADIUS_M + 0.1)).collect();
-        prop_assert!(distance_to_way(way[0], &far) > 0.053 * RADIUS_M);
+        prop_assert!(distance_to_path(path[0], &far) > 0.053 * RADIUS_M);
     }
 }
 

@@ -12,7 +12,7 @@ pub(super) fn used<'a>(
     used: Option<&Value>,
     of: &str,
 ) -> Result<Option<(gltf::Texture<'a>, UvMapping)>, Flaw> {
-    let Some((used, way)) = used.and_then(|used| Some((used, uv::of_json(used)?))) else {
+    let Some((used, mapping)) = used.and_then(|used| Some((used, uv::of_json(used)?))) else {
         return Ok(None);
     };
     let index = used.get("index").and_then(Value::as_u64);
@@ -20,5 +20,5 @@ pub(super) fn used<'a>(
     let known = index.and_then(|index| document.textures().nth(index));
     let texture =
         known.ok_or_else(|| Flaw::new(format!("a texture of its {of} is not there"), RIGHT))?;
-    Ok(Some((texture, way)))
+    Ok(Some((texture, mapping)))
 }

@@ -91,10 +91,10 @@ impl FileMaterials<'_> {
         let is_older = material.extension_value(spec_gloss::NAME).is_some();
         let [of_color, of_metal] = [pbr.base_color_texture(), pbr.metallic_roughness_texture()]
             .map(|texture| used(texture.filter(|_| !is_older)));
-        let ways = UvMappings::from_material(material);
+        let mappings = UvMappings::from_material(material);
         let mut look = |texture: Option<(gltf::Texture, UvMapping)>, channels| match texture {
-            Some((texture, way)) => {
-                let by_other_uvs = ways.is_second(way);
+            Some((texture, mapping)) => {
+                let by_other_uvs = mappings.is_second(mapping);
                 self.images
                     .texture(&texture, channels, by_other_uvs)
                     .map(Some)
@@ -199,11 +199,11 @@ impl FileMaterials<'_> {
             return Ok(());
         }
         // Both images use the mapping of the first.
-        let way = spec_gloss::TEXTURES
+        let mapping = spec_gloss::TEXTURES
             .into_iter()
             .find_map(|name| uv::of_json(extension.get(name)?));
         let by_other_uvs =
-            way.is_some_and(|way| UvMappings::from_material(material).is_second(way));
+            mapping.is_some_and(|mapping| UvMappings::from_material(material).is_second(mapping));
         let images =
             self.images
                 .spec_gloss(&factors, diffuse.as_ref(), specular.as_ref(), by_other_uvs)?;

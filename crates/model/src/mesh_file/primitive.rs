@@ -15,7 +15,7 @@ use crate::flaw::Flaw;
 use crate::surface::{Surface, Vertex};
 
 /// A primitive as the file has it, before missing attributes are computed.
-pub(super) struct Rough {
+pub(super) struct RawPrimitive {
     pub surface: Surface,
     has_normals: bool,
     has_tangents: bool,
@@ -30,7 +30,7 @@ pub(super) fn read(
     primitive: &Primitive,
     buffers: &Buffers,
     motion: &Motion,
-) -> Result<Option<Rough>, Flaw> {
+) -> Result<Option<RawPrimitive>, Flaw> {
     if matches!(
         primitive.mode(),
         Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
@@ -51,22 +51,26 @@ pub(super) fn read(
         Some(_) => attributes.matching::<4>(&Semantic::Tangents, count)?,
         None => None,
     };
-    let ways = UvMappings::from_material(&primitive.material());
+    let mappings = UvMappings::from_material(&primitive.material());
     // A surface without images keeps the first set, which another material may use.
-    let first = ways.first.unwrap_or(UvMapping::new(0, None));
-    let [uvs, other_uvs] = [Some(first), ways.second].map(|way| match way {
-        Some(way) => {
-            let uvs = attributes.matching::<2>(&Semantic::TexCoords(way.set), count)?;
-            Ok(uvs.map(|uvs| uvs.into_iter().map(|uv| way.place(uv)).collect::<Vec<_>>()))
+    let first = mappings.first.unwrap_or(UvMapping::new(0, None));
+    let [uvs, other_uvs] = [Some(first), mappings.second].map(|mapping| match mapping {
+        Some(mapping) => {
+            let uvs = attributes.matching::<2>(&Semantic::TexCoords(mapping.set), count)?;
+            Ok(uvs.map(|uvs| {
+                uvs.into_iter()
+                    .map(|uv| mapping.place(uv))
+                    .collect::<Vec<_>>()
+            }))
         }
         None => Ok(None),
     });
     let (uvs, other_uvs) = (uvs?, other_uvs?);
-    let wanted = [(ways.first, &uvs), (ways.second, &other_uvs)];
+    let wanted = [(mappings.first, &uvs), (mappings.second, &other_uvs)];
     let missing = wanted
         .into_iter()
-        .filter_map(|(way, uvs)| way.filter(|_| uvs.is_none()));
-    let missing_sets = missing.map(|way| way.set).collect();
+        .filter_map(|(mapping, uvs)| mapping.filter(|_| uvs.is_none()));
+    let missing_sets = missing.map(|mapping| mapping.set).collect();
     let colors = attributes.colors(count)?;
 
     let place = |uvs: &Option<Vec<Vec2>>, i: usize| uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
@@ -87,7 +91,7 @@ pub(super) fn read(
         })
         .collect();
     motion.apply(&attributes, &mut vertices)?;
-    Ok(Some(Rough {
+    Ok(Some(RawPrimitive {
         surface: Surface {
             triangles: attributes.triangles(count)?,
             vertices,
@@ -99,7 +103,7 @@ pub(super) fn read(
     }))
 }
 
-impl Rough {
+impl RawPrimitive {
     /// Adds normals, and tangents where normal maps or brushed metal need them. `turned` counts triangles that are wound against
     /// their normals in the file.
     pub(super) fn finished(self, primitive: &Primitive, turned: &mut usize) -> Surface {

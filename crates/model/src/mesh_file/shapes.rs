@@ -10,7 +10,7 @@ use super::cameras::{self, FileCamera};
 use super::instances::node_from_instances;
 use super::nodes::{PlacedNode, placed_nodes};
 use super::pose::{Moment, Pose};
-use super::primitive::{self, Rough};
+use super::primitive::{self, RawPrimitive};
 use super::skin::Motion;
 use super::source::Buffers;
 use crate::flaw::Flaw;
@@ -27,7 +27,7 @@ pub(super) struct Shape<'a> {
     pub primitive: Primitive<'a>,
     /// The names of its node and of those above it.
     pub nodes: Arc<[String]>,
-    pub rough: Rough,
+    pub rough: RawPrimitive,
     /// Its transforms, one for each instance.
     pub places: Vec<DMat4>,
 }

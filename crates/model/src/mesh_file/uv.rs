@@ -62,24 +62,24 @@ pub(super) struct UvMappings {
 
 impl UvMappings {
     pub(super) fn from_material(material: &Material) -> Self {
-        let mut ways = Self::default();
-        for way in all(material) {
-            ways.add(way);
+        let mut mappings = Self::default();
+        for mapping in all(material) {
+            mappings.add(mapping);
         }
-        ways
+        mappings
     }
 
-    fn add(&mut self, way: UvMapping) {
+    fn add(&mut self, mapping: UvMapping) {
         if self.first.is_none() {
-            self.first = Some(way);
-        } else if self.second.is_none() && self.first != Some(way) {
-            self.second = Some(way);
+            self.first = Some(mapping);
+        } else if self.second.is_none() && self.first != Some(mapping) {
+            self.second = Some(mapping);
         }
     }
 
     /// Whether an image uses the second mapping.
-    pub(super) fn is_second(&self, way: UvMapping) -> bool {
-        self.second == Some(way)
+    pub(super) fn is_second(&self, mapping: UvMapping) -> bool {
+        self.second == Some(mapping)
     }
 }
 
@@ -145,14 +145,14 @@ mod tests {
     fn a_place_is_scaled_then_turned_then_moved() {
         let transform = r#"{"offset":[0.5,0.25],"rotation":1.5707963267948966,"scale":[2,4]}"#;
         let transform: Value = gltf::json::deserialize::from_str(transform).unwrap();
-        let way = UvMapping::new(0, Some(&transform));
+        let mapping = UvMapping::new(0, Some(&transform));
         // A quarter turn takes u to -v and v to u.
         for (uv, place) in [
             ([0.0, 0.0], [0.5, 0.25]),
             ([1.0, 0.0], [0.5, -1.75]),
             ([0.0, 1.0], [4.5, 0.25]),
         ] {
-            assert!(way.place(uv).abs_diff_eq(place.into(), 1e-6), "{uv:?}");
+            assert!(mapping.place(uv).abs_diff_eq(place.into(), 1e-6), "{uv:?}");
         }
         assert_eq!(
             UvMapping::new(3, None).place([0.25, 7.0]),

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tobj::LoadOptions;
 
 use super::creased::add_normals;
-use super::statements::{self, Found};
+use super::statements::{self, SilentContents};
 use super::translated::{Part, Translated, bare_metal, begun, finished, push_part};
 use crate::flaw::Flaw;
 use crate::gltf_file::GltfFile;
@@ -115,7 +115,7 @@ pub(super) fn names(path: &FilePath) -> Option<Vec<(String, PathBuf)>> {
 
 /// Notes on what is read in silence. Without a .mtl file that cannot be read there are none on materials.
 fn taken_in_silence(
-    found: &Found<'_>,
+    found: &SilentContents<'_>,
     materials: &[tobj::Material],
     tells_materials: bool,
 ) -> Vec<String> {

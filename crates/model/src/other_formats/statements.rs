@@ -7,7 +7,7 @@ use crate::text::shown;
 
 /// What an OBJ file has that is read in silence.
 #[derive(Default)]
-pub(super) struct Found<'a> {
+pub(super) struct SilentContents<'a> {
     /// Number of faces of fewer than three corners, and the line of the first.
     pub short_faces: (usize, usize),
     /// Materials that it uses, each time with the line.
@@ -32,13 +32,13 @@ const ELEMENTS: [(&str, &str); 3] = [("v", "vertex"), ("vt", "point"), ("vn", "n
 ///
 /// # Errors
 /// What is wrong, with its line.
-pub(super) fn check_obj(text: &str) -> Result<Found<'_>, String> {
+pub(super) fn check_obj(text: &str) -> Result<SilentContents<'_>, String> {
     let element = |key: &str| ELEMENTS.iter().position(|(name, _)| *name == key);
     let mut all = [0; 3];
     for index in split_statements(text).filter_map(|(_, key, _)| element(key)) {
         all[index] += 1;
     }
-    let (mut before, mut found) = ([0; 3], Found::default());
+    let (mut before, mut found) = ([0; 3], SilentContents::default());
     for (line, key, rest) in split_statements(text) {
         if let Some(index) = element(key) {
             before[index] += 1;

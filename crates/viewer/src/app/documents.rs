@@ -11,7 +11,7 @@ use hairline_editor::autosave::Pending;
 use hairline_editor::document::SaveError;
 
 use super::Viewer;
-use crate::dialogs::{Answer, PathLine, Question, Wish};
+use crate::dialogs::{Answer, PathLine, PendingAction, Question};
 use crate::files::Purpose;
 use crate::link;
 use crate::platform;
@@ -22,27 +22,27 @@ use crate::tools::Tool;
 const EMPTY: &str = include_str!("../../assets/empty_studio.toml");
 
 impl Viewer {
-    /// Carries out a wish, or first asks about unsaved changes, which it would lose.
-    pub(super) fn wish(&mut self, ctx: &egui::Context, wish: Wish) {
+    /// Carries out an action, or first asks about unsaved changes, which it would lose.
+    pub(super) fn request(&mut self, ctx: &egui::Context, action: PendingAction) {
         if self.work.document.is_modified() {
-            self.dialogs.ask(Question::Unsaved(wish));
+            self.dialogs.ask(Question::Unsaved(action));
         } else {
-            self.fulfil(ctx, wish);
+            self.perform(ctx, action);
         }
     }
 
-    pub(super) fn fulfil(&mut self, ctx: &egui::Context, wish: Wish) {
-        let opened = match wish {
-            Wish::New => {
+    pub(super) fn perform(&mut self, ctx: &egui::Context, action: PendingAction) {
+        let opened = match action {
+            PendingAction::New => {
                 let base_dir = self.work.document.base_dir().with_path("");
                 super::read("new scene", EMPTY, base_dir).map_err(|error| error.to_string())
             }
-            Wish::Example(i) => self.work.examples.open(i, &self.files.examples()),
-            Wish::Open(path) => {
+            PendingAction::Example(i) => self.work.examples.open(i, &self.files.examples()),
+            PendingAction::Open(path) => {
                 let path = self.work.document.base_dir().with_path(path);
                 super::open(path).map_err(|error| error.to_string())
             }
-            Wish::Quit => {
+            PendingAction::Quit => {
                 self.is_closing = true;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
                 return;
@@ -163,8 +163,8 @@ impl Viewer {
                     let text = format!("Saved {}", path.display());
                     work.notices.note("saved", text);
                 }
-                if let Some(wish) = after {
-                    self.fulfil(ctx, wish);
+                if let Some(action) = after {
+                    self.perform(ctx, action);
                 }
             }
         }
@@ -214,7 +214,7 @@ impl Viewer {
             None => {}
             Some(Ok(text)) => {
                 hold(path, text.as_bytes());
-                self.wish(ctx, Wish::Open(path.to_owned()));
+                self.request(ctx, PendingAction::Open(path.to_owned()));
             }
             Some(Err(error)) => self.work.notices.error("open", error.to_string()),
         }
@@ -227,14 +227,14 @@ impl Viewer {
         self.not_built = None;
         let work = &mut self.work;
         work.document.replace(document);
-        work.engine.forget_scene();
+        work.renderer.forget_scene();
         work.free_view.end();
         work.toolbox.tool = Tool::Select;
         let canvas = &self.viewport.canvas;
         work.snapshots = Snapshots::open(work.document.path(), canvas, ctx);
         work.closed_lens = None;
         work.region = None;
-        work.wished_when_built = None;
+        work.requested_when_built = None;
         work.notices.begin_scene();
         work.tell_notes();
         work.bookmarks.open(work.document.path());
@@ -264,8 +264,8 @@ impl Viewer {
         match answer {
             Answer::Cancel => self.typed = None,
             Answer::CancelSaving => (self.typed, self.after_save) = (None, None),
-            Answer::SaveBefore(wish) => {
-                self.after_save = Some(wish);
+            Answer::SaveBefore(action) => {
+                self.after_save = Some(action);
                 self.save(ctx);
             }
             Answer::SaveOver => {
@@ -280,8 +280,8 @@ impl Viewer {
                 let line = PathLine::new(purpose, path.display().to_string());
                 self.dialogs.ask(Question::Path(line));
             }
-            Answer::Wish(wish) => self.wish(ctx, wish),
-            Answer::Fulfil(wish) => self.fulfil(ctx, wish),
+            Answer::Request(action) => self.request(ctx, action),
+            Answer::Perform(action) => self.perform(ctx, action),
             Answer::Path(purpose, path) => self.take_typed(ctx, purpose, path),
             Answer::SavePreset(name, all_lights) => self.save_preset(name, all_lights),
             Answer::Reload => self.work.reload("was loaded again."),
@@ -311,7 +311,7 @@ impl Viewer {
         let is_asked = ctx.input(|input| input.viewport().close_requested());
         if is_asked && !self.is_closing && self.work.document.is_modified() {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.dialogs.ask(Question::Unsaved(Wish::Quit));
+            self.dialogs.ask(Question::Unsaved(PendingAction::Quit));
         }
     }
 }

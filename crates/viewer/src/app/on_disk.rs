@@ -41,7 +41,7 @@ impl Viewer {
     }
 
     /// File > Reload.
-    pub(super) fn wish_reload(&mut self) {
+    pub(super) fn request_reload(&mut self) {
         if self.work.document.is_modified() {
             self.dialogs.ask(Question::Reload);
         } else {

@@ -10,7 +10,7 @@ use hairline_editor::actions::{self, layers, objects, pictures};
 
 use super::Viewer;
 use crate::command::Command;
-use crate::dialogs::{PathLine, Question, Wish};
+use crate::dialogs::{PathLine, PendingAction, Question};
 use crate::files::{Choice, Purpose};
 use crate::platform::HAS_DISK;
 
@@ -47,7 +47,7 @@ impl Viewer {
         has_asked: bool,
     ) {
         match purpose {
-            Purpose::Open => self.wish(ctx, Wish::Open(path.to_owned())),
+            Purpose::Open => self.request(ctx, PendingAction::Open(path.to_owned())),
             Purpose::SaveAs => self.save_as(ctx, path, has_asked),
             Purpose::AddModel => self.probe(ctx, Purpose::AddModel, path),
             Purpose::Environment => self.probe(ctx, Purpose::Environment, path),
@@ -118,12 +118,12 @@ impl Viewer {
         self.typed = None;
         let ending = path.extension().unwrap_or_default();
         match ending.to_string_lossy().to_lowercase().as_str() {
-            "toml" => self.wish(ctx, Wish::Open(path.to_owned())),
+            "toml" => self.request(ctx, PendingAction::Open(path.to_owned())),
             // One that holds a scene is one.
             _ if Description::is_model(path) => {
                 let file = self.work.document.base_dir().with_path(path);
                 match gltf_scene::is_in(file) {
-                    true => self.wish(ctx, Wish::Open(path.to_owned())),
+                    true => self.request(ctx, PendingAction::Open(path.to_owned())),
                     false => self.probe(ctx, Purpose::AddModel, path),
                 }
             }
@@ -190,7 +190,7 @@ impl Viewer {
 
     /// Adds a model as large as in its file, or fitted to a size.
     pub(super) fn add_model(&mut self, path: &Path, fit_m: Option<f64>) {
-        self.work.wished_when_built = Some(Command::FrameSelection);
+        self.work.requested_when_built = Some(Command::FrameSelection);
         let base_dir = self.work.document.base_dir().to_owned();
         self.work.apply("Add a model", |d, _| {
             let selection = objects::add_mesh(d, path, &base_dir);

@@ -1,4 +1,4 @@
-//! The picture in the middle of the window: the requests to the engine, its events, and the overlays.
+//! The picture in the middle of the window: the requests to the renderer, its events, and the overlays.
 
 use std::sync::Arc;
 
@@ -7,11 +7,11 @@ use hairline_image::Display;
 
 use super::Viewer;
 use crate::badges;
-use crate::engine::{Event, Frame, View};
 use crate::looks::Clicked;
 use crate::panels::busy::Busy;
 use crate::panels::status;
 use crate::platform::HAS_DISK;
+use crate::progressive::{Event, Frame, View};
 use crate::reading;
 use crate::seen::makes_same_scene;
 use crate::viewport::Area;
@@ -31,24 +31,24 @@ impl Viewer {
             // Under all that follows: what the mouse does is in it.
             let place = ui.painter().add(Shape::Noop);
             let region_place = ui.painter().add(Shape::Noop);
-            let frame = self.work.engine.latest();
+            let frame = self.work.renderer.latest();
             self.show_over(ui, &area, &response);
             self.ask_engine();
             let wanted = view(&self.work, &area);
             self.viewport.view = Some(wanted);
-            self.work.engine.set_view(wanted);
+            self.work.renderer.set_view(wanted);
             if let Some(frame) = self.picture_to_draw(frame) {
                 let canvas = &mut self.viewport.canvas;
                 canvas.paint(ui, place, &area, &frame, &wanted);
-                if let Some(part) = self.work.engine.region() {
+                if let Some(part) = self.work.renderer.region() {
                     let canvas = &mut self.viewport.region_canvas;
                     canvas.paint_region(ui, region_place, &area, &part);
                 }
             } else {
-                if !self.work.engine.has_failed() {
+                if !self.work.renderer.has_failed() {
                     ui.put(rect, Busy::size(32.0));
                 }
-                let words = RichText::new(status::before_the_first(&self.work.engine)).size(14.0);
+                let words = RichText::new(status::before_the_first(&self.work.renderer)).size(14.0);
                 // Words that could be selected would take the mouse from what lies under them.
                 let label = Label::new(words).selectable(false);
                 ui.put(rect.translate(egui::vec2(0.0, 32.0)), label);
@@ -60,7 +60,7 @@ impl Viewer {
 
     /// Shows the overlays and tools over the picture, and handles the mouse in it.
     fn show_over(&mut self, ui: &mut Ui, area: &Area, response: &Response) {
-        if let Some(frame) = self.work.engine.latest() {
+        if let Some(frame) = self.work.renderer.latest() {
             area.paint_frame(ui);
             self.compare.show(ui, &self.work, area);
             let seen = view(&self.work, area);
@@ -94,10 +94,10 @@ impl Viewer {
             looks,
             snapshots,
             document,
-            engine,
+            renderer,
             ..
         } = &mut self.work;
-        match looks.show(ui, document, engine, snapshots.above_strip(area)) {
+        match looks.show(ui, document, renderer, snapshots.above_strip(area)) {
             Clicked::Nothing => {}
             Clicked::Look(i) => self.work.take_look(i),
             Clicked::Keep => self.work.keep_look(),
@@ -109,8 +109,8 @@ impl Viewer {
     fn picture_to_draw(&mut self, frame: Option<Arc<Frame>>) -> Option<Arc<Frame>> {
         #[cfg(not(target_arch = "wasm32"))]
         if let (Some(software), Some(view)) = (&mut self.software, self.viewport.view) {
-            software.wait_for_picture(&self.work.engine, view, self.asked_revision);
-            return self.work.engine.latest();
+            software.wait_for_picture(&self.work.renderer, view, self.asked_revision);
+            return self.work.renderer.latest();
         }
         frame
     }
@@ -118,16 +118,16 @@ impl Viewer {
     /// Frames an added model, which may be far larger or smaller than the objects before, or an added body beside them.
     pub(super) fn frame_what_was_added(&mut self, ctx: &egui::Context) {
         let objects = &self.work.document.description().objects;
-        let built = self.work.engine.built();
+        let built = self.work.renderer.built();
         let is_built = built.is_some_and(|built| built.description.objects == *objects);
-        if is_built && let Some(command) = self.work.wished_when_built.take() {
+        if is_built && let Some(command) = self.work.requested_when_built.take() {
             self.run(ctx, command);
         }
     }
 
     pub(super) fn hear_engine(&mut self) {
         let notices = &mut self.work.notices;
-        for event in self.work.engine.events() {
+        for event in self.work.renderer.events() {
             match event {
                 // An error of an outdated scene is not shown: the scene may be right again.
                 Event::NotBuilt { revision, message } => {
@@ -173,7 +173,7 @@ impl Viewer {
             return;
         };
         let work = &mut self.work;
-        let (built, before) = (work.engine.built(), work.document.before_step());
+        let (built, before) = (work.renderer.built(), work.document.before_step());
         let is_at_fault = built.zip(before).is_some_and(|(built, before)| {
             makes_same_scene(&built.description, before)
                 && !makes_same_scene(&built.description, work.document.description())
@@ -182,13 +182,13 @@ impl Viewer {
             return;
         }
         if let Some(label) = work.document.refuse_step() {
-            work.wished_when_built = None;
+            work.requested_when_built = None;
             let text = format!("{label}: it is as it was before. {why}");
             work.notices.error("change", text);
         }
     }
 
-    /// Hands the description to the engine if more than the view has changed.
+    /// Hands the description to the progressive renderer if more than the view has changed.
     pub(super) fn ask_engine(&mut self) {
         let work = &mut self.work;
         let description = work.document.description();
@@ -203,7 +203,7 @@ impl Viewer {
             self.not_built = None;
             work.missing.clear();
             self.asked_revision = work.document.revision();
-            work.engine.set_scene(
+            work.renderer.set_scene(
                 self.asked_revision,
                 Arc::clone(description),
                 work.document.base_dir().to_owned(),

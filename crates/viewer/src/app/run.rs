@@ -7,7 +7,7 @@ use hairline_editor::actions::{layers, parts};
 
 use super::Viewer;
 use crate::command::{self, Command};
-use crate::dialogs::{Choice, PresetLine, Question, Wish};
+use crate::dialogs::{Choice, PendingAction, PresetLine, Question};
 use crate::files::Purpose;
 use crate::free_view::ViewCommand;
 use crate::panels;
@@ -28,7 +28,7 @@ impl Viewer {
             return;
         }
         match command {
-            Command::New => self.wish(ctx, Wish::New),
+            Command::New => self.request(ctx, PendingAction::New),
             Command::Gallery if HAS_PAGE => platform::show_gallery(),
             Command::Gallery => {
                 let choice = Choice::new(self.work.examples);
@@ -38,7 +38,7 @@ impl Viewer {
             Command::Save => self.save(ctx),
             Command::SaveAs => self.ask_path(ctx, Purpose::SaveAs),
             Command::CopyLink => self.copy_link(ctx),
-            Command::Reload => self.wish_reload(),
+            Command::Reload => self.request_reload(),
             Command::Revert => self.revert(),
             Command::AddModel => self.ask_path(ctx, Purpose::AddModel),
             Command::SetEnvironment => self.ask_path(ctx, Purpose::Environment),
@@ -130,7 +130,7 @@ impl Viewer {
                 self.work.settings.set_high_contrast(is_high);
                 crate::style::set(ctx, is_high);
             }
-            Command::Pause => self.work.engine.set_paused(!self.work.engine.is_paused()),
+            Command::Pause => self.work.renderer.set_paused(!self.work.renderer.is_paused()),
             Command::WholePicture => self.work.region = None,
             Command::Shadows => self.work.transport.shadows = !self.work.transport.shadows,
         }
@@ -190,7 +190,7 @@ impl Viewer {
 
     fn take_snapshot(&mut self) {
         let work = &mut self.work;
-        if let Some(view) = work.engine.view() {
+        if let Some(view) = work.renderer.view() {
             let canvas = self.viewport.canvas.another();
             work.snapshots
                 .take(&work.document, view, canvas, &mut work.notices);

@@ -26,7 +26,7 @@ impl Compare {
         if !self.open {
             return;
         }
-        let Some(built) = work.engine.built() else {
+        let Some(built) = work.renderer.built() else {
             return;
         };
         let camera = work.camera();

@@ -14,8 +14,8 @@ use hairline_scene::{Camera, Scene, Transport};
 use web_time::Instant;
 
 use super::figures::Figures;
-use crate::engine::{Built, Wake};
 use crate::jobs::Stop;
+use crate::progressive::{Built, Wake};
 
 /// Request for a comparison.
 #[derive(Clone)]

@@ -8,7 +8,7 @@ use crate::files::Purpose;
 
 /// Action that waits for an answer about unsaved changes.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Wish {
+pub(crate) enum PendingAction {
     New,
     /// An example, by its index.
     Example(usize),
@@ -22,11 +22,11 @@ pub(crate) enum Answer {
     Cancel,
     /// Nothing is done, and the scene is not saved.
     CancelSaving,
-    /// The scene is saved before the wish.
-    SaveBefore(Wish),
-    Fulfil(Wish),
-    /// A wish, before which unsaved changes are asked about.
-    Wish(Wish),
+    /// The scene is saved before the action.
+    SaveBefore(PendingAction),
+    Perform(PendingAction),
+    /// An action, before which unsaved changes are asked about.
+    Request(PendingAction),
     SaveOver,
     SaveAs,
     /// A file that is there is written over.

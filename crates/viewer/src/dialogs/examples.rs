@@ -2,7 +2,7 @@
 
 use egui::{Context, Grid, Id, Modal, Rect, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 
-use super::answer::{Answer, Wish};
+use super::answer::{Answer, PendingAction};
 use crate::examples::{COLUMNS, Examples, PICTURE_PX};
 use crate::gallery::{sheet_of, tile};
 
@@ -35,7 +35,7 @@ impl Choice {
         });
         let should_close = modal.should_close();
         match modal.inner {
-            (Some(chosen), _) => Some(Answer::Wish(Wish::Example(chosen))),
+            (Some(chosen), _) => Some(Answer::Request(PendingAction::Example(chosen))),
             (None, cancel) => (cancel || should_close).then_some(Answer::Cancel),
         }
     }

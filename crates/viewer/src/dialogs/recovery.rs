@@ -19,7 +19,7 @@ pub(crate) struct Recovery {
 }
 
 /// Button that was pressed.
-enum Press {
+enum RecoveryButton {
     Recover(usize),
     AskToDiscard(usize),
     Keep,
@@ -36,7 +36,7 @@ impl Recovery {
         }
     }
 
-    fn row(&mut self, ui: &mut Ui, i: usize) -> Option<Press> {
+    fn row(&mut self, ui: &mut Ui, i: usize) -> Option<RecoveryButton> {
         let ctx = ui.ctx().clone();
         let entry = &self.pending[i];
         let thumbnails = self
@@ -58,17 +58,17 @@ impl Recovery {
                     if self.going == Some(i) {
                         ui.label("For good?");
                         if ui.button("Yes, throw it away").clicked() {
-                            answer = Some(Press::Discard(i));
+                            answer = Some(RecoveryButton::Discard(i));
                         }
                         if ui.button("Keep it").clicked() {
-                            answer = Some(Press::Keep);
+                            answer = Some(RecoveryButton::Keep);
                         }
                     } else {
                         if ui.button("Recover").clicked() {
-                            answer = Some(Press::Recover(i));
+                            answer = Some(RecoveryButton::Recover(i));
                         }
                         if ui.button("Throw away…").clicked() {
-                            answer = Some(Press::AskToDiscard(i));
+                            answer = Some(RecoveryButton::AskToDiscard(i));
                         }
                     }
                 });
@@ -95,23 +95,25 @@ impl Recovery {
                 });
             ui.add_space(8.0);
             if ui.button("Ask again later").clicked() {
-                answer = Some(Press::Later);
+                answer = Some(RecoveryButton::Later);
             }
             answer
         });
         let should_close = modal.should_close();
         match modal.inner {
-            Some(Press::Recover(i)) => return Some(Answer::Recover(self.pending.remove(i))),
-            Some(Press::Discard(i)) => {
+            Some(RecoveryButton::Recover(i)) => {
+                return Some(Answer::Recover(self.pending.remove(i)));
+            }
+            Some(RecoveryButton::Discard(i)) => {
                 self.pending.remove(i).discard();
                 *self = Self::new(std::mem::take(&mut self.pending));
                 if self.pending.is_empty() {
                     return Some(Answer::Cancel);
                 }
             }
-            Some(Press::Later) => return Some(Answer::Cancel),
-            Some(Press::AskToDiscard(i)) => self.going = Some(i),
-            Some(Press::Keep) => self.going = None,
+            Some(RecoveryButton::Later) => return Some(Answer::Cancel),
+            Some(RecoveryButton::AskToDiscard(i)) => self.going = Some(i),
+            Some(RecoveryButton::Keep) => self.going = None,
             None if should_close => return Some(Answer::Cancel),
             None => {}
         }

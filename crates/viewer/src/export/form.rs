@@ -9,7 +9,7 @@ use hairline_image::{Animation, BATCH_SAMPLES, Batches, FPS, FPS_MAX};
 use hairline_render::Motion;
 
 use super::work::{Expected, frame_path, is_animation};
-use crate::engine::SHADOW_SAMPLES;
+use crate::progressive::SHADOW_SAMPLES;
 
 /// Width and height; more is more than a file format or a machine is likely to hold.
 const SIDE_PX: std::ops::RangeInclusive<u32> = 1..=16_384;

@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use egui::Context;
 
 use super::work::{self, Expected, Wish};
-use crate::engine::Built;
 use crate::jobs::Job;
+use crate::progressive::Built;
 
 /// The beginning of an export, without a file.
 pub(super) struct Rehearsal {

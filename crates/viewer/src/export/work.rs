@@ -12,8 +12,8 @@ use hairline_render::{Motion, Painter, Sequence, Task, Writer};
 use hairline_scene::{Scene, Transport};
 use web_time::Instant;
 
-use crate::engine::{Backend, Built, ViewBuilder, Wake};
 use crate::jobs::Stop;
+use crate::progressive::{Backend, Built, ViewBuilder, Wake};
 
 /// Path of a picture, counted from 0: NAME.png, or with a motion NAME-0001.png and on; NAME.apng and NAME.mp4 have all of them.
 pub(super) fn frame_path(path: &Path, motion: Option<Motion>, frame: u32) -> PathBuf {

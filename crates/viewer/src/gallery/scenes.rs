@@ -253,11 +253,11 @@ fn body(form: StandIn, layers: &[Scratches]) -> Description {
     let mut lit = of_form(form);
     let dome = read(DOME);
     // A bent surface shows lamps smaller, and larger ones keep the light of its scratches.
-    let (way, reach_m, lamp) = match form {
+    let (facing, reach_m, lamp) = match form {
         StandIn::Flat | StandIn::Round => (DVec3::new(-0.25, -0.85, 0.4), 0.02, 5.0),
         StandIn::Tall => (DVec3::new(-0.25, -0.95, 0.0), 0.011, 2.0),
     };
-    let normal = way.normalize();
+    let normal = facing.normalize();
     let mut lights = dome.lights;
     if let LightKind::Sphere { radius_m, .. } = &mut lights[0].kind {
         *radius_m *= lamp;

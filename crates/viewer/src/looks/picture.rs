@@ -9,8 +9,8 @@ use hairline_render::{Painter, Task};
 use hairline_scene::Transport;
 use web_time::Instant;
 
-use crate::engine::ViewBuilder;
 use crate::jobs::Stop;
+use crate::progressive::ViewBuilder;
 use crate::thumbnail::HEIGHT;
 
 /// A picture with what it is of.

@@ -154,7 +154,7 @@ fn show_views(ui: &mut Ui, work: &mut Workspace) {
             let command = Command::View(command);
             let button = Button::new(command.label());
             if ui.add_enabled(work.free_view.is_free(), button).clicked() {
-                work.wished.push(command);
+                work.requested.push(command);
             }
         }
     });
@@ -165,7 +165,7 @@ fn show_views(ui: &mut Ui, work: &mut Workspace) {
         .on_hover_text("Turning, moving and framing the view then changes the scene, as steps that can be undone")
         .changed()
     {
-        work.wished.push(follows);
+        work.requested.push(follows);
     }
     ui.add_space(8.0);
     ui.strong("Kept views");
@@ -191,7 +191,7 @@ fn show_views(ui: &mut Ui, work: &mut Workspace) {
             .add(Button::selectable(is_on, command.label()).frame_when_inactive(true))
             .clicked()
         {
-            work.wished.push(command);
+            work.requested.push(command);
         }
     }
     if let Some(index) = go {

@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if is_choosable && ui.button("Another map…").clicked() {
-            work.wished.push(Command::SetEnvironment);
+            work.requested.push(Command::SetEnvironment);
         }
         if ui.button("Remove the map").clicked() {
             work.set_environment("Remove the environment", None);
@@ -63,7 +63,7 @@ fn built_in_maps(ui: &mut Ui, work: &mut Workspace) {
 
 /// Describes the suns that were parted from the map of the picture.
 fn suns(work: &Workspace) -> Option<String> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     let suns = built.scene.environment.as_ref()?.suns();
     let size = |sun: &Light| {
         let (center_m, radius_m) = sun.bounding_sphere();

@@ -1,6 +1,6 @@
 //! Controls for the directions of a grating's grooves.
 
-use hairline_document::description::{Around, GroovePattern, Rows, UvAxis};
+use hairline_document::description::{GroovePattern, PatternAxis, Rows, UvAxis};
 use hairline_editor::actions::pictures::PictureOf;
 
 use super::form::Form;
@@ -55,9 +55,9 @@ fn begin(name: &str, before: &GroovePattern, diagonal_m: f64) -> GroovePattern {
         | GroovePattern::Spun { around, .. }
         | GroovePattern::Swirl { around, .. } => *around,
         GroovePattern::Parallel { jitter_deg, .. } | GroovePattern::Uv { jitter_deg, .. } => {
-            Around {
+            PatternAxis {
                 jitter_deg: *jitter_deg,
-                ..Around::default()
+                ..PatternAxis::default()
             }
         }
     };

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use egui::{Id, Ui};
 use hairline_document::description::{
-    Amount, Around, Distribution, Engraved, Laid, Layer, Line, Pattern, Rows, Scratches,
+    Amount, Distribution, Engraved, Laid, Layer, Line, Pattern, PatternAxis, Rows, Scratches,
 };
 use hairline_editor::Selection;
 use hairline_editor::actions::pictures::PictureOf;
@@ -44,7 +44,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.distribution(Laid::WIDTH_UM, &mut brushed.width_um);
             form.distribution(Laid::DEPTH_NM, &mut brushed.depth_nm);
             form.distribution(Laid::LENGTH_M, &mut brushed.length_m);
-            form.number(Around::JITTER_DEG, &mut brushed.jitter_deg);
+            form.number(PatternAxis::JITTER_DEG, &mut brushed.jitter_deg);
             form.seed(&mut brushed.seed);
         }
         Layer::Engraved(engraved) => engraved_rows(&mut form, engraved, index),
@@ -261,7 +261,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
         let keep = egui::Button::new(Command::SavePreset.label());
         let keep = ui.add_enabled(work.can(Command::SavePreset), keep);
         if keep.on_disabled_hover_text(NO_PRESET).clicked() {
-            work.wished.push(Command::SavePreset);
+            work.requested.push(Command::SavePreset);
         }
         for command in [
             Command::Duplicate,
@@ -283,11 +283,11 @@ fn begin(name: &str, before: &Pattern) -> Pattern {
         Pattern::Circular(around) | Pattern::Radial(around) | Pattern::Spun { around, .. } => {
             *around
         }
-        Pattern::Parallel { jitter_deg, .. } => Around {
+        Pattern::Parallel { jitter_deg, .. } => PatternAxis {
             jitter_deg: *jitter_deg,
-            ..Around::default()
+            ..PatternAxis::default()
         },
-        Pattern::Random { .. } | Pattern::Swirl { .. } => Around::default(),
+        Pattern::Random { .. } | Pattern::Swirl { .. } => PatternAxis::default(),
     };
     let curvature = |mean, spread| Distribution { mean, spread };
     match name {

@@ -162,7 +162,7 @@ fn bar_button(ui: &mut Ui, work: &mut Workspace, tool: &BarTool) {
         None => text.clone(),
     };
     if response.on_hover_text(text).clicked() {
-        work.wished.push(*command);
+        work.requested.push(*command);
     }
 }
 
@@ -217,7 +217,7 @@ fn item(ui: &mut Ui, work: &mut Workspace, command: Command) {
         button = button.shortcut_text(RichText::new(command::key_text(&shortcut)).color(color));
     }
     if ui.add_enabled(work.can(command), button).clicked() {
-        work.wished.push(command);
+        work.requested.push(command);
         // Enter closes no menu by itself.
         ui.close();
     }

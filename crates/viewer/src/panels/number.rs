@@ -49,11 +49,11 @@ impl NumberBox<'_> {
             typed.replace(Some(outcome));
             number
         };
-        let way = range.slider.end() - range.slider.start();
+        let span = range.slider.end() - range.slider.start();
         let speed = if range.logarithmic {
-            (before.abs() * 0.01).max(way * 1e-6)
+            (before.abs() * 0.01).max(span * 1e-6)
         } else {
-            way / 400.0
+            span / 400.0
         };
         let mut drag = DragValue::new(value)
             .range(range.hard.clone())
@@ -63,7 +63,7 @@ impl NumberBox<'_> {
             .prefix(self.prefix)
             .custom_formatter(|number, _| self.shown.text(number))
             .custom_parser(read)
-            // Typing counts when it is done: half a number is no wish.
+            // Typing counts when it is done: half a number is no value.
             .update_while_editing(false);
         if range.is_whole {
             drag = drag.max_decimals(0);

@@ -203,7 +203,7 @@ fn line(ui: &mut Ui, work: &mut Workspace, selection: Selection, name: &str, is_
         work.document.select(selection);
     }
     if response.double_clicked() {
-        work.wished.push(Command::Rename);
+        work.requested.push(Command::Rename);
     }
     if response.secondary_clicked() {
         work.document.select(selection);
@@ -242,7 +242,7 @@ fn add_shape(ui: &mut Ui, work: &mut Workspace) {
             _ => bodies::add(d, preset, &there_m),
         });
         if !there_m.is_empty() && preset != ShapePreset::Text {
-            work.wished_when_built = Some(Command::FrameAll);
+            work.requested_when_built = Some(Command::FrameAll);
         }
     }
 }

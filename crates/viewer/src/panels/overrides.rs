@@ -33,7 +33,7 @@ pub(super) fn section(ui: &mut Ui, work: &mut Workspace, index: usize) {
 
 /// A material of the built scene.
 fn made(work: &Workspace, object: &Object, name: &str) -> Option<Material> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     let scene = &built.scene;
     let own = scene.objects.iter().find(|it| it.name == object.name)?;
     let mut own = own.mesh.materials().into_iter();

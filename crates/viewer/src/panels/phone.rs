@@ -44,7 +44,7 @@ pub(crate) fn show(
                     sheet = (!is_open).then_some(which);
                 }
             }
-            let words = RichText::new(status::summary(&work.engine, viewport)).size(TEXT - 1.0);
+            let words = RichText::new(status::summary(&work.renderer, viewport)).size(TEXT - 1.0);
             ui.add(Label::new(words).truncate());
         });
     });
@@ -93,7 +93,7 @@ fn top(ui: &mut Ui, work: &mut Workspace, files: &Files) -> Option<PathBuf> {
                     .add_enabled(work.can(command), Button::new(name))
                     .clicked()
             {
-                work.wished.push(command);
+                work.requested.push(command);
             }
         }
     });

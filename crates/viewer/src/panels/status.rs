@@ -7,7 +7,7 @@ use hairline_scene::Transport;
 
 use super::busy::Busy;
 use crate::command::Command;
-use crate::engine::{Engine, Frame, Latency};
+use crate::progressive::{Frame, Latency, ProgressiveRenderer};
 use crate::viewport::Viewport;
 use crate::workspace::Workspace;
 
@@ -22,7 +22,7 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
             let time = viewport.interface_time;
             ui.label(RichText::new(format!("interface {}", milliseconds(time))).weak())
                 .on_hover_text("The longest pass of the interface itself of late");
-            let backend = work.engine.backend();
+            let backend = work.renderer.backend();
             let most = LONGEST_BACKEND * ui.available_width();
             ui.scope(|ui| {
                 ui.set_max_width(most);
@@ -32,29 +32,29 @@ pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, viewport: &Viewport) {
             transport(ui, work);
             pause(ui, work);
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                progress(ui, &work.engine, viewport);
+                progress(ui, &work.renderer, viewport);
             });
         });
     });
 }
 
 /// One line, whose end is left out where it has no room; all of it and more in the tooltip.
-fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
+fn progress(ui: &mut Ui, renderer: &ProgressiveRenderer, viewport: &Viewport) {
     let mut parts = Vec::new();
     let mut details = String::new();
-    match engine.latest() {
+    match renderer.latest() {
         Some(frame) => {
             let is_stale = viewport.canvas.is_stale();
-            parts.extend(picture(&frame, is_stale, engine));
+            parts.extend(picture(&frame, is_stale, renderer));
             details += &times(&frame);
         }
-        None => parts.push(before_the_first(engine).to_owned()),
+        None => parts.push(before_the_first(renderer).to_owned()),
     }
-    if engine.is_building() {
+    if renderer.is_building() {
         ui.add(Busy::new());
         parts.push("laying scratches".to_owned());
     }
-    if let Some(built) = engine.built() {
+    if let Some(built) = renderer.built() {
         let (scratches, segments) = built.scratch_counts();
         parts.push(format!("{} scratches", grouped(scratches)));
         details += &format!("\n{} straight pieces of scratches", grouped(segments));
@@ -69,37 +69,37 @@ fn progress(ui: &mut Ui, engine: &Engine, viewport: &Viewport) {
 const GAP: &str = "    ";
 
 /// What the picture is and how long it takes to be clean, in few words.
-pub(super) fn summary(engine: &Engine, viewport: &Viewport) -> String {
-    if engine.is_building() {
+pub(super) fn summary(renderer: &ProgressiveRenderer, viewport: &Viewport) -> String {
+    if renderer.is_building() {
         return "laying scratches".to_owned();
     }
-    let Some(frame) = engine.latest() else {
-        return before_the_first(engine).to_owned();
+    let Some(frame) = renderer.latest() else {
+        return before_the_first(renderer).to_owned();
     };
     let is_stale = viewport.canvas.is_stale();
     let what = activity(&frame, is_stale);
     match frame.painted.left.filter(|_| !is_stale) {
-        _ if engine.is_paused() && !frame.painted.is_final => "paused".to_owned(),
-        Some(_) if engine.is_resting() => "paused while an export runs".to_owned(),
+        _ if renderer.is_paused() && !frame.painted.is_final => "paused".to_owned(),
+        Some(_) if renderer.is_resting() => "paused while an export runs".to_owned(),
         Some(left) => format!("{} left: {what}", rough(left)),
         None => what,
     }
 }
 
 /// Text about the current work while there is no picture yet.
-pub(crate) fn before_the_first(engine: &Engine) -> &'static str {
-    match engine.built() {
+pub(crate) fn before_the_first(renderer: &ProgressiveRenderer) -> &'static str {
+    match renderer.built() {
         Some(_) => "rendering the first picture",
-        None if engine.has_failed() => "the scene could not be built",
+        None if renderer.has_failed() => "the scene could not be built",
         None => "building the scene",
     }
 }
 
 /// Size, time and state of the picture.
-fn picture(frame: &Frame, is_stale: bool, engine: &Engine) -> Vec<String> {
+fn picture(frame: &Frame, is_stale: bool, renderer: &ProgressiveRenderer) -> Vec<String> {
     let painted = &frame.painted;
     let [width, height] = painted.size_px;
-    let part = engine.region().filter(|part| part.number > frame.number);
+    let part = renderer.region().filter(|part| part.number > frame.number);
     let (what, left) = match &part {
         Some(part) => (
             format!("region: {}", activity(part, false)),
@@ -111,9 +111,9 @@ fn picture(frame: &Frame, is_stale: bool, engine: &Engine) -> Vec<String> {
         "{width} × {height}, {}",
         milliseconds(painted.time)
     )];
-    parts.extend(match engine.is_paused() && !painted.is_final {
+    parts.extend(match renderer.is_paused() && !painted.is_final {
         true => vec!["paused".to_owned()],
-        false => with_time_left(what, left.filter(|_| !is_stale), engine.is_resting()),
+        false => with_time_left(what, left.filter(|_| !is_stale), renderer.is_resting()),
     });
     if !painted.passes.is_empty() {
         let device: Duration = painted.passes.iter().map(|pass| pass.time).sum();
@@ -152,7 +152,7 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
     match (painted.is_final, painted.samples) {
         _ if is_stale => "rendering the new view".to_owned(),
         _ if painted.transport != wanted => {
-            let left_out = ways(wanted);
+            let left_out = transport_words(wanted);
             match painted.thin == 1 && painted.size_px == frame.view.size_px {
                 true if painted.done < 1.0 => {
                     format!("{left_out} follow, {:.0} %", 100.0 * painted.done)
@@ -171,7 +171,11 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
             false => format!("sample {samples} of {all}"),
         },
         _ if painted.done < 1.0 && wanted.shadows => {
-            format!("adding {}, {:.0} %", ways(wanted), 100.0 * painted.done)
+            format!(
+                "adding {}, {:.0} %",
+                transport_words(wanted),
+                100.0 * painted.done
+            )
         }
         _ if painted.done < 1.0 => format!("finishing, {:.0} %", 100.0 * painted.done),
         (false, 1) if painted.thin > 1 => format!("refining, one scratch of {}", painted.thin),
@@ -183,18 +187,18 @@ fn activity(frame: &Frame, is_stale: bool) -> String {
 
 /// A button that pauses what comes after the first picture, or goes on with it.
 fn pause(ui: &mut Ui, work: &mut Workspace) {
-    let is_paused = work.engine.is_paused();
+    let is_paused = work.renderer.is_paused();
     let word = if is_paused { "Go on" } else { "Pause" };
     let button = ui.button(word).on_hover_text(
         "Whether pictures become finer while nothing moves. A new view or a change is shown once, coarsely, all the same (Shift+P)",
     );
     if button.clicked() {
-        work.wished.push(Command::Pause);
+        work.requested.push(Command::Pause);
     }
 }
 
 /// Name of the light besides the closed form.
-fn ways(wanted: Transport) -> &'static str {
+fn transport_words(wanted: Transport) -> &'static str {
     match wanted.bounces {
         0 => "shadows",
         _ => "shadows and bounces",
@@ -220,7 +224,7 @@ fn transport(ui: &mut Ui, work: &mut Workspace) {
             .on_hover_text("Objects hide lights and the environment from one another")
             .changed()
         {
-            work.wished.push(Command::Shadows);
+            work.requested.push(Command::Shadows);
         }
         ui.add_enabled_ui(shadows, |ui| {
             ui.horizontal(|ui| {

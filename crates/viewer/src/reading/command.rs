@@ -2,7 +2,7 @@
 
 use super::{ReadingState, Shows};
 
-/// A wish about how the picture is read.
+/// A command about how the picture is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadCommand {
     Probe,

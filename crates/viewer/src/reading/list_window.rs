@@ -8,8 +8,8 @@ use hairline_editor::actions::layers;
 
 use super::window::window;
 use crate::command::Command;
-use crate::engine::Built;
 use crate::measure::{PickedScratch, ScratchTexts};
+use crate::progressive::Built;
 use crate::workspace::Workspace;
 
 /// Columns with their widths, points.
@@ -31,7 +31,7 @@ pub(super) fn show_list(ui: &Ui, work: &mut Workspace, picture: &Response) {
     let object = work.selection().object(work.document.description());
     let named = work.document.description().scratches.get(layer);
     let title = named.map_or(String::new(), |it| format!("List: {}", layers::title(it)));
-    let built = work.engine.built().filter(|built| !built.is_sketch());
+    let built = work.renderer.built().filter(|built| !built.is_sketch());
     let corner = (
         // Messages stand at the lower edge, and badges in the corner.
         Align2::LEFT_TOP,
@@ -110,7 +110,7 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
             work.measure.reveals = true;
         }
         if ui.button(Command::SaveList.label()).clicked() {
-            work.wished.push(Command::SaveList);
+            work.requested.push(Command::SaveList);
         }
     });
     if let Some(index) = chosen {

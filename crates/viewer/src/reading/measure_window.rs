@@ -4,8 +4,8 @@ use egui::{Align2, Grid, Id, Response, RichText, Ui, vec2};
 use hairline_editor::actions::layers;
 
 use super::window::window;
-use crate::engine::Built;
 use crate::measure::{PickedScratch, ScratchTexts, Span, length};
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -13,7 +13,7 @@ use crate::workspace::Workspace;
 pub(super) fn show_measure(ui: &Ui, work: &mut Workspace, picture: &Response) {
     let is_tool = work.toolbox.tool == Tool::Measure;
     let span = work.measure.span.found();
-    let built = work.engine.built();
+    let built = work.renderer.built();
     let picked = built.as_ref().zip(work.measure.picked.as_ref());
     let scratch = picked.and_then(|(built, picked)| scratch_lines(built, picked));
     if !is_tool && scratch.is_none() && span.is_none() {

@@ -13,8 +13,8 @@ use hairline_render::Task;
 use hairline_scene::{CameraFrame, Scene};
 
 use super::false_color;
-use crate::engine::{Built, SHADOW_SAMPLES, View};
 use crate::jobs::Job;
+use crate::progressive::{Built, SHADOW_SAMPLES, View};
 
 /// A pixel, and the surface under it.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Reading {
     /// Normal of the surface, world space; 0 where there is none.
     pub normal: [f32; 3],
     /// The object and its material under the pixel's centre.
-    pub under: Option<Under>,
+    pub under: Option<SurfaceHit>,
     /// Number of segments of scratches with a share in the pixel.
     pub segments: f64,
     /// Samples that the pixel took.
@@ -41,7 +41,7 @@ pub struct Reading {
 
 /// Hit of the ray through a pixel's centre.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Under {
+pub struct SurfaceHit {
     /// Name of the object.
     pub object: String,
     /// Name of the material.
@@ -205,7 +205,7 @@ fn read(spot: &ProbedPixel) -> Option<Reading> {
     })
 }
 
-fn surface_under(built: &Built, scene: &Scene, at_px: [u32; 2], hit: &Hit) -> Option<Under> {
+fn surface_under(built: &Built, scene: &Scene, at_px: [u32; 2], hit: &Hit) -> Option<SurfaceHit> {
     let object = scene.objects.get(hit.object as usize)?;
     let mesh = &object.mesh;
     let material = *mesh.triangle_materials.get(hit.triangle as usize)?;
@@ -244,7 +244,7 @@ fn surface_under(built: &Built, scene: &Scene, at_px: [u32; 2], hit: &Hit) -> Op
             });
     }
     let names = built.description.scratches.iter().zip(seen);
-    Some(Under {
+    Some(SurfaceHit {
         object: object.name.clone(),
         material: scene.materials.get(material as usize)?.name.clone(),
         point_m,

@@ -5,7 +5,7 @@ use hairline_image::Display;
 
 use super::Reading;
 use super::window::window;
-use crate::engine::View;
+use crate::progressive::View;
 use crate::viewport::ink;
 use crate::workspace::Workspace;
 
@@ -13,7 +13,7 @@ pub(super) fn show_probe(ui: &mut Ui, work: &mut Workspace, view: &View, picture
     if !work.reading.probe.is_on() {
         return;
     }
-    let Some(built) = work.engine.built() else {
+    let Some(built) = work.renderer.built() else {
         return;
     };
     let (ctx, area, pointer) = (ui.ctx().clone(), picture.rect, picture.hover_pos());

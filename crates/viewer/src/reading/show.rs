@@ -7,12 +7,12 @@ use super::list_window::show_list;
 use super::measure_window::show_measure;
 use super::probe_window::show_probe;
 use super::{Findings, Shows, false_color};
-use crate::engine::View;
+use crate::progressive::View;
 use crate::workspace::Workspace;
 
 /// Shows the windows that are switched on. `view` is the newest one, of which there may be no picture yet.
 pub(crate) fn show(ui: &mut Ui, work: &mut Workspace, view: Option<View>, picture: &Response) {
-    let Some(frame) = work.engine.latest() else {
+    let Some(frame) = work.renderer.latest() else {
         return;
     };
     let area = picture.rect;

@@ -6,11 +6,11 @@ use egui::{Align2, Color32, FontId, Rect, TextureId, Ui, pos2, vec2};
 use hairline_editor::Document;
 
 use crate::compare::divider;
-use crate::engine::{Frame, View};
+use crate::progressive::{Frame, View};
 use crate::viewport::Area;
 use crate::viewport::canvas::{BELOW_BADGES, CanvasTexture};
 
-use super::{Snapshots, Way};
+use super::{CompareMode, Snapshots};
 
 /// Gap between two pictures, points.
 const GAP: f32 = 2.0;
@@ -43,7 +43,7 @@ impl Snapshots {
         view: &View,
         (now, canvas): (&Frame, &mut CanvasTexture),
     ) {
-        let way = self.way;
+        let mode = self.mode;
         let Some(snapshot) = self.shown() else {
             return;
         };
@@ -51,15 +51,15 @@ impl Snapshots {
         let size_px = snapshot.size_px;
         let texture = snapshot.texture(ui.ctx());
         let rect = area.rect;
-        match way {
-            Way::Flip => {
+        match mode {
+            CompareMode::Flip => {
                 ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
                 picture(ui, fitting(rect, size_px), texture);
                 // Same frame as for the current look, so that the two differ only where the looks do.
                 area.paint_frame(ui);
                 caption(ui, rect, &name);
             }
-            Way::SideBySide => {
+            CompareMode::SideBySide => {
                 ui.painter().rect_filled(rect, 0.0, Color32::BLACK);
                 let middle = rect.center().x;
                 let mut left = rect;
@@ -72,7 +72,7 @@ impl Snapshots {
                 caption(ui, left, "Now");
                 caption(ui, right, &name);
             }
-            Way::Slider => {
+            CompareMode::Slider => {
                 let share = &mut self.divider;
                 let x = rect.left() + *share * rect.width();
                 let right = Rect::from_min_max(pos2(x, rect.top()), rect.max);

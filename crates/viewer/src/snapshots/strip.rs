@@ -5,7 +5,7 @@ use egui::{Align2, Button, Id, Rect, Role, ScrollArea, Ui, WidgetInfo, vec2};
 use crate::thumbnail::{LOW, Thumbnail};
 use crate::viewport::Area;
 
-use super::{Snapshots, Way};
+use super::{CompareMode, Snapshots};
 
 impl Snapshots {
     /// Shows it; the index of the one that is to be restored.
@@ -74,13 +74,15 @@ impl Snapshots {
     fn tools(&mut self, ui: &mut Ui) -> Option<usize> {
         let mut restored = None;
         ui.horizontal(|ui| {
-            for way in Way::ALL {
-                let is_on = self.is_shown && self.way == way;
-                let button =
-                    ui.add_enabled(self.chosen.is_some(), Button::selectable(is_on, way.name()));
+            for mode in CompareMode::ALL {
+                let is_on = self.is_shown && self.mode == mode;
+                let button = ui.add_enabled(
+                    self.chosen.is_some(),
+                    Button::selectable(is_on, mode.name()),
+                );
                 if button.clicked() {
                     self.is_shown = !is_on;
-                    self.way = way;
+                    self.mode = mode;
                 }
             }
             let Some(chosen) = self.chosen else {

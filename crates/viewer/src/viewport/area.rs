@@ -5,7 +5,7 @@ use glam::DVec2;
 use hairline_document::description;
 use hairline_scene::Camera;
 
-use crate::engine::Region;
+use crate::progressive::Region;
 
 /// The picture's area on the screen, in points.
 #[derive(Clone, Copy)]

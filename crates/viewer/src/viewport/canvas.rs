@@ -6,7 +6,7 @@ use eframe::egui_wgpu::RenderState;
 use egui::layers::ShapeIdx;
 use egui::{Color32, ColorImage, Rect, Shape, TextureHandle, TextureId, TextureOptions, pos2};
 
-use crate::engine::{Frame, Picture, View};
+use crate::progressive::{Frame, Picture, View};
 
 use super::Area;
 
@@ -222,16 +222,16 @@ impl Drop for CanvasTexture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::Engine;
+    use crate::progressive::ProgressiveRenderer;
     use egui::{Context, FullOutput, RawInput};
     use hairline_fixtures::scenes::bare_plate;
 
     fn frame() -> Arc<Frame> {
         let description = bare_plate().description();
         let camera = super::super::camera(&description.camera);
-        let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-        engine.set_scene(1, Arc::new(description), "");
-        engine.set_view(View {
+        let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+        renderer.set_scene(1, Arc::new(description), "");
+        renderer.set_view(View {
             camera,
             size_px: [40, 30],
             display: hairline_image::Display {
@@ -244,8 +244,8 @@ mod tests {
             region: None,
         });
         loop {
-            engine.work();
-            if let Some(frame) = engine.latest() {
+            renderer.work();
+            if let Some(frame) = renderer.latest() {
                 return frame;
             }
         }

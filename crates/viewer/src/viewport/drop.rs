@@ -7,9 +7,9 @@ use hairline_scene::Mesh;
 
 use super::lens::Lens;
 use super::{Area, Viewport, ink, pick};
-use crate::engine::Built;
 use crate::gallery::Thumb;
 use crate::parts::{self, ObjectPart};
+use crate::progressive::Built;
 use crate::workspace::Workspace;
 
 /// Colour of the box around what would be changed.
@@ -34,7 +34,8 @@ impl Viewport {
         let Some(pos) = ui.ctx().pointer_interact_pos() else {
             return;
         };
-        let (Some(built), Some(hit)) = (work.engine.built(), pick::surface(work, area, pos)) else {
+        let (Some(built), Some(hit)) = (work.renderer.built(), pick::surface(work, area, pos))
+        else {
             return;
         };
         let Some(described) = work.document.description().objects.get(hit.object) else {
@@ -96,7 +97,7 @@ fn show_box(painter: &Painter, lens: &Lens, low_m: DVec3, high_m: DVec3) {
             let is_edge = (*a - *b)
                 .to_array()
                 .iter()
-                .filter(|way| **way != 0.0)
+                .filter(|sign| **sign != 0.0)
                 .count()
                 == 1;
             if let Some(ends) = lens.segment(*a, *b).filter(|_| is_edge) {

@@ -114,8 +114,8 @@ impl Lens {
 
 /// Share of a line at which it is nearest to a point.
 pub(super) fn share_of_nearest(from: Pos2, to: Pos2, pos: Pos2) -> f32 {
-    let way = to - from;
-    ((pos - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
+    let line = to - from;
+    ((pos - from).dot(line) / line.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]
@@ -148,8 +148,8 @@ mod tests {
             DVec3::new(0.0, 0.02, 0.01),
         ] {
             let pos = lens.project(point_m).unwrap();
-            let way = point_m - lens.eye_m();
-            let miss = (way - lens.ray(pos) * way.length()).length();
+            let offset = point_m - lens.eye_m();
+            let miss = (offset - lens.ray(pos) * offset.length()).length();
             // A thousandth of a point: positions on the screen are single precision.
             assert!(
                 miss < 1e-3 * lens.m_per_point(point_m),

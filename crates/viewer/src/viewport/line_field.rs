@@ -13,8 +13,8 @@ use hairline_editor::actions::layers;
 use hairline_scene::{Scratch, Segment};
 use web_time::Instant;
 
-use crate::engine::Built;
 use crate::overlays::Overlay;
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -120,7 +120,7 @@ fn wanted(work: &Workspace) -> Vec<usize> {
 /// wanted.
 pub(super) fn show(ui: &Ui, fields: &mut Vec<LineField>, work: &Workspace, area: &Area) {
     let wanted = wanted(work);
-    let built = work.engine.built().filter(|_| !wanted.is_empty());
+    let built = work.renderer.built().filter(|_| !wanted.is_empty());
     let Some(built) = built else {
         fields.clear();
         return;
@@ -287,13 +287,13 @@ impl Layer {
             .get(scratch.segments.start as usize..scratch.segments.end as usize)?;
         let place = part(0.754_877_666_246_692_7) * run.len() as f64;
         let segment = run.get(place as usize)?;
-        let way = segment.end_m - segment.start_m;
+        let span = segment.end_m - segment.start_m;
         let within = place.fract() as f32;
         Some(Mark {
             number: of_layer,
-            point_m: (segment.start_m + way * within).as_dvec3(),
+            point_m: (segment.start_m + span * within).as_dvec3(),
             normal: segment.normal.as_dvec3(),
-            along: way.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
+            along: span.try_normalize().unwrap_or(Vec3::ZERO).as_dvec3(),
         })
     }
 }

@@ -9,8 +9,8 @@ use hairline_editor::Selection;
 use super::lens::{Lens, share_of_nearest};
 use super::pick::{self, Picked};
 use super::{Area, Viewport, ink};
-use crate::engine::Built;
 use crate::measure::{PickedScratch, SurfacePoint, length};
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -54,7 +54,7 @@ impl Viewport {
 }
 
 fn surface_point(work: &Workspace, hit: &Picked) -> Option<SurfacePoint> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     Some(SurfacePoint {
         mesh: Arc::clone(&built.scene.objects.get(hit.object)?.mesh),
         triangle: hit.triangle,
@@ -65,7 +65,7 @@ fn surface_point(work: &Workspace, hit: &Picked) -> Option<SurfacePoint> {
 /// Reads the scratch that is nearest to a click, and selects its layer.
 pub(super) fn pick_scratch(work: &mut Workspace, area: &Area, pos: Pos2) {
     work.measure.picked = None;
-    let (Some(built), Some(hit)) = (work.engine.built(), pick::surface(work, area, pos)) else {
+    let (Some(built), Some(hit)) = (work.renderer.built(), pick::surface(work, area, pos)) else {
         return;
     };
     if built.is_sketch() {
@@ -110,7 +110,7 @@ fn nearest(built: &Built, lens: &Lens, hit: &Picked, pos: Pos2) -> Option<usize>
 
 /// Draws the scratch that was picked, and the ruler.
 pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
-    let Some(built) = work.engine.built() else {
+    let Some(built) = work.renderer.built() else {
         return;
     };
     work.measure.span.follow(ui.ctx());
@@ -135,8 +135,8 @@ pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
     let Some(span) = work.measure.span.found() else {
         return;
     };
-    let way_m = span.way_m.as_deref().unwrap_or(&span.ends_m);
-    let way: Vec<Pos2> = way_m.iter().filter_map(|at| lens.project(*at)).collect();
+    let path_m = span.path_m.as_deref().unwrap_or(&span.ends_m);
+    let points: Vec<Pos2> = path_m.iter().filter_map(|at| lens.project(*at)).collect();
     for end in span.ends_m.iter().filter_map(|end| lens.project(*end)) {
         ink::dot(&painter, end, 3.0, Color32::WHITE);
     }
@@ -153,5 +153,5 @@ pub(super) fn show(ui: &Ui, work: &mut Workspace, area: &Area) {
             Color32::WHITE,
         );
     }
-    ink::line(&painter, way, 1.5, Color32::WHITE);
+    ink::line(&painter, points, 1.5, Color32::WHITE);
 }

@@ -206,7 +206,7 @@ fn pick_part(work: &mut Workspace, hit: &Picked) {
         return;
     };
     let described = work.document.description().objects.get(hit.object).cloned();
-    let (Some(described), Some(built)) = (described, work.engine.built()) else {
+    let (Some(described), Some(built)) = (described, work.renderer.built()) else {
         return;
     };
     let part = parts::part_with_triangle(&built.scene, &described, hit.object, hit.triangle);

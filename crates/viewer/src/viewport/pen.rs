@@ -8,7 +8,7 @@ use hairline_scene::Segment;
 
 use super::lens::{Lens, share_of_nearest};
 use super::{Area, ink, pick};
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::tools::{BEGIN_LINE, Tool};
 use crate::workspace::Workspace;
 
@@ -242,7 +242,7 @@ impl PenTool {
         };
         if let (None, None, Some(points)) = (self.open, begun, &points)
             && points.object == hit.object
-            && let Some(built) = work.engine.built()
+            && let Some(built) = work.renderer.built()
             && let Some(point) = points.insertion_place(&built, &lens, pos)
             && pen::curve(&description.scratches[points.layer]).is_some()
         {
@@ -331,9 +331,9 @@ impl PenTool {
         let Some(points) = points else {
             return;
         };
-        if let Some(built) = work.engine.built() {
-            for way in ways(&built, &points, &lens) {
-                ink::line(&painter, way, 1.0, LINE);
+        if let Some(built) = work.renderer.built() {
+            for polyline in polylines(&built, &points, &lens) {
+                ink::line(&painter, polyline, 1.0, LINE);
             }
         }
         for (i, point_m) in points.points_m.iter().enumerate() {
@@ -348,24 +348,24 @@ impl PenTool {
 }
 
 /// The scratches of a layer on the screen, where they face the eye: of very many, some that lie evenly along its lines.
-fn ways(built: &Built, points: &Points, lens: &Lens) -> Vec<Vec<Pos2>> {
-    let mut ways: Vec<Vec<Pos2>> = Vec::new();
+fn polylines(built: &Built, points: &Points, lens: &Lens) -> Vec<Vec<Pos2>> {
+    let mut polylines: Vec<Vec<Pos2>> = Vec::new();
     let step = points.pieces(built).count().div_ceil(MOST_WAYS).max(1);
     for pieces in points.pieces(built).step_by(step) {
-        let mut way: Vec<Pos2> = Vec::new();
+        let mut polyline: Vec<Pos2> = Vec::new();
         for segment in pieces {
             let end_m = segment.end_m.as_dvec3();
             let is_seen = segment.normal.as_dvec3().dot(lens.eye_m() - end_m) > 0.0;
             if !is_seen {
-                ways.push(std::mem::take(&mut way));
+                polylines.push(std::mem::take(&mut polyline));
                 continue;
             }
             let ends_m = [segment.start_m.as_dvec3(), end_m];
-            let from = if way.is_empty() { 0 } else { 1 };
-            way.extend(ends_m[from..].iter().filter_map(|it| lens.project(*it)));
+            let from = if polyline.is_empty() { 0 } else { 1 };
+            polyline.extend(ends_m[from..].iter().filter_map(|it| lens.project(*it)));
         }
-        ways.push(way);
+        polylines.push(polyline);
     }
-    ways.retain(|way| way.len() > 1);
-    ways
+    polylines.retain(|polyline| polyline.len() > 1);
+    polylines
 }

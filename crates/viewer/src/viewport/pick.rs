@@ -3,7 +3,7 @@
 use egui::Pos2;
 use glam::DVec3;
 
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::workspace::Workspace;
 
 use super::{Area, lens::Lens};
@@ -23,7 +23,7 @@ pub(super) struct Picked {
 
 /// The nearest surface under `pos`, of the newest scene that was built.
 pub(super) fn surface(work: &Workspace, area: &Area, pos: Pos2) -> Option<Picked> {
-    let built = work.engine.built()?;
+    let built = work.renderer.built()?;
     let lens = Lens::new(&work.camera(), area);
     pick(&built, &lens, pos)
 }
@@ -47,9 +47,9 @@ const LEAST_FACING: f64 = 0.12;
 
 /// Whether the camera sees a place on a surface from the side of this normal, with nothing before it.
 pub(super) fn is_seen(built: &Built, lens: &Lens, point_m: DVec3, normal: DVec3) -> bool {
-    let way = point_m - lens.eye_m();
-    let distance_m = way.length();
-    let ray = way / distance_m;
+    let offset = point_m - lens.eye_m();
+    let distance_m = offset.length();
+    let ray = offset / distance_m;
     if !(-ray.dot(normal) > LEAST_FACING) {
         return false;
     }

@@ -9,7 +9,7 @@ use hairline_editor::{DragKey, Selection};
 
 use super::pick::Picked;
 use super::{Area, Viewport, pick};
-use crate::engine::Built;
+use crate::progressive::Built;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
 
@@ -52,7 +52,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
     // The whole drag starts from the light's first place, so that its distance does not shrink from one obstacle to the next.
     let before = work.document.before_drag();
     let start = before.unwrap_or(work.document.description()).lights.get(i);
-    let (Some(start), Some(built)) = (start.cloned(), work.engine.built()) else {
+    let (Some(start), Some(built)) = (start.cloned(), work.renderer.built()) else {
         return;
     };
     let mut light = start;
@@ -63,8 +63,8 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
         None => "The ground".to_owned(),
     };
     match stand_clear(&mut light, &built, hit) {
-        Stands::AsFar => work.notices.clear("place"),
-        Stands::Elsewhere(object) => {
+        Placement::AsFar => work.notices.clear("place"),
+        Placement::Elsewhere(object) => {
             let [now, wanted] = [center(&light).distance(hit.point_m), wanted_m]
                 .map(|m| Unit::Metre.shown(m).text(m));
             let text = format!(
@@ -73,7 +73,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
             );
             work.notices.note("place", text);
         }
-        Stands::Nowhere(object) => {
+        Placement::Nowhere(object) => {
             let text = format!(
                 "{} is in the way, and leaves no room for the light in that direction: it stays where it was.",
                 name(object)
@@ -89,7 +89,7 @@ pub(super) fn place_light(work: &mut Workspace, hit: &Picked) {
 }
 
 /// Place where a light came to stand. Objects are counted as those that were built.
-enum Stands {
+enum Placement {
     /// The light is as far from its highlight as before.
     AsFar,
     /// Nearer or farther, for an object is in the way.
@@ -100,11 +100,11 @@ enum Stands {
 
 /// Brings a light nearer to its highlight, or farther from it, until nothing is in its way: it is neither inside of an object nor below the
 /// ground.
-fn stand_clear(light: &mut Light, built: &Built, highlight: &Picked) -> Stands {
-    let way = center(light) - highlight.point_m;
-    let wanted_m = way.length();
-    let (Some(towards), None) = (way.try_normalize(), light.kind.sunbeam()) else {
-        return Stands::AsFar;
+fn stand_clear(light: &mut Light, built: &Built, highlight: &Picked) -> Placement {
+    let offset = center(light) - highlight.point_m;
+    let wanted_m = offset.length();
+    let (Some(towards), None) = (offset.try_normalize(), light.kind.sunbeam()) else {
+        return Placement::AsFar;
     };
     let off = highlight.normal * (OFF_SURFACE * wanted_m);
     let met = built
@@ -124,14 +124,14 @@ fn stand_clear(light: &mut Light, built: &Built, highlight: &Picked) -> Stands {
         set_distance_m(&mut moved, highlight.point_m, distance_m);
         match touched(&moved, built) {
             Some(object) => in_the_way = in_the_way.or(Some(object)),
-            None if distance_m == wanted_m => return Stands::AsFar,
+            None if distance_m == wanted_m => return Placement::AsFar,
             None => {
                 *light = moved;
-                return in_the_way.map_or(Stands::AsFar, Stands::Elsewhere);
+                return in_the_way.map_or(Placement::AsFar, Placement::Elsewhere);
             }
         }
     }
-    in_the_way.map_or(Stands::AsFar, Stands::Nowhere)
+    in_the_way.map_or(Placement::AsFar, Placement::Nowhere)
 }
 
 /// An object that a part of a light is inside of or behind, seen from the light's middle.
@@ -151,9 +151,9 @@ fn touched(light: &Light, built: &Built) -> Option<usize> {
         false => corners_m,
     };
     ends_m.into_iter().find_map(|end_m| {
-        let way = end_m - middle;
-        let towards = way.try_normalize()?;
+        let offset = end_m - middle;
+        let towards = offset.try_normalize()?;
         let hit = built.triangles.intersect_solid(middle, towards)?;
-        (hit.distance_m < way.length()).then_some(hit.object as usize)
+        (hit.distance_m < offset.length()).then_some(hit.object as usize)
     })
 }

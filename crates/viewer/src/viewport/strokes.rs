@@ -10,8 +10,8 @@ use hairline_document::description;
 use hairline_editor::Selection;
 use hairline_editor::brush::{BrushSettings, Recorder, apply_stroke};
 
-use crate::engine::{Built, Frame};
 use crate::overlays::Overlay;
+use crate::progressive::{Built, Frame};
 use crate::seen::makes_same_scene;
 use crate::tools::Tool;
 use crate::workspace::Workspace;
@@ -21,7 +21,7 @@ use super::canvas::CanvasTexture;
 use super::lens::Lens;
 use super::pick::{self, Picked};
 use draw_brush::{
-    Drawn, are_alike, color, is_comparable, show_drawn, show_ring, show_way, stroke_count,
+    Drawn, are_alike, color, is_comparable, show_drawn, show_path, show_ring, stroke_count,
 };
 
 /// Distance of rays between two places of the pointer, points.
@@ -34,7 +34,7 @@ const MOST_RAYS: usize = 2000;
 /// The brush in the hand.
 #[derive(Default)]
 pub(super) struct StrokeTool {
-    going_on: Option<Going>,
+    going_on: Option<StrokeDrag>,
     /// Last position of the pointer in a drag that has met no object yet.
     before: Option<Pos2>,
     /// Escape was pressed; nothing is drawn until the button is up.
@@ -46,7 +46,7 @@ pub(super) struct StrokeTool {
 }
 
 /// State of one drag. It stays on the object that it began on, and is one step.
-struct Going {
+struct StrokeDrag {
     object: usize,
     settings: BrushSettings,
     world_from_object: DMat4,
@@ -54,7 +54,7 @@ struct Going {
     pos: Pos2,
     /// The stroke that the pointer draws, with its last point; none while the pointer is beside the object.
     open: Option<(Recorder, StrokePoint)>,
-    /// Strokes that ended where the pointer left the object, and their ways.
+    /// Strokes that ended where the pointer left the object, and their paths.
     done: Vec<(description::Stroke, Vec<DVec3>)>,
 }
 
@@ -75,7 +75,7 @@ impl StrokeTool {
         response: &Response,
         (is_in_hand, canvas): (bool, &CanvasTexture),
     ) {
-        if let Some(frame) = work.engine.latest().filter(|frame| is_comparable(frame)) {
+        if let Some(frame) = work.renderer.latest().filter(|frame| is_comparable(frame)) {
             let built = &frame.built;
             (self.clean).retain(|it| Arc::ptr_eq(&it.built, built) && !are_alike(it, &frame));
             self.clean.push(frame);
@@ -83,7 +83,7 @@ impl StrokeTool {
         let is_held = is_in_hand
             && response.is_pointer_button_down_on()
             && ui.input(|input| input.pointer.button_down(PointerButton::Primary));
-        if let Some(built) = work.engine.built()
+        if let Some(built) = work.renderer.built()
             && is_in_hand
         {
             let lens = Lens::new(&work.camera(), area);
@@ -109,8 +109,8 @@ impl StrokeTool {
                 };
                 show_ring(&painter, &lens, &hit, radius_m, color);
             }
-            for way_m in self.going_on.iter().flat_map(Going::ways_m) {
-                show_way(&painter, &lens, way_m, color);
+            for path_m in self.going_on.iter().flat_map(StrokeDrag::paths_m) {
+                show_path(&painter, &lens, path_m, color);
             }
         }
         show_drawn(ui, work, &mut self.drawn, area, canvas);
@@ -149,7 +149,7 @@ impl StrokeTool {
         for pos in places {
             if self.going_on.is_none() {
                 let from = self.before.replace(pos).unwrap_or(pos);
-                let begun = way(from, pos).find_map(|at| begin(work, world, at));
+                let begun = pointer_steps(from, pos).find_map(|at| begin(work, world, at));
                 self.going_on = begun;
             }
             if let Some(going) = &mut self.going_on {
@@ -205,10 +205,10 @@ impl World<'_> {
     }
 }
 
-impl Going {
+impl StrokeDrag {
     /// Follows the pointer: places between two passes are looked up too, since a surface is not straight between them.
     fn follow(&mut self, world: World, to: Pos2) {
-        for pos in way(self.pos, to) {
+        for pos in pointer_steps(self.pos, to) {
             self.take(world, world.stroke_point(pos));
         }
         self.pos = to;
@@ -239,28 +239,28 @@ impl Going {
     /// Ends the stroke that is open, not the drag.
     fn lift(&mut self) {
         if let Some((recorder, _)) = self.open.take() {
-            let way_m = recorder.way_m().to_vec();
+            let path_m = recorder.path_m().to_vec();
             self.done
-                .extend(recorder.finish().map(|stroke| (stroke, way_m)));
+                .extend(recorder.finish().map(|stroke| (stroke, path_m)));
         }
     }
 
     /// Paths of all strokes of this drag.
-    fn ways_m(&self) -> impl Iterator<Item = &[DVec3]> {
-        let done = self.done.iter().map(|(_, way_m)| way_m.as_slice());
-        let open = self.open.iter().map(|(recorder, _)| recorder.way_m());
+    fn paths_m(&self) -> impl Iterator<Item = &[DVec3]> {
+        let done = self.done.iter().map(|(_, path_m)| path_m.as_slice());
+        let open = self.open.iter().map(|(recorder, _)| recorder.path_m());
         done.chain(open)
     }
 }
 
 /// Places from one to another, close enough that a surface is straight between them; the first is left out.
-fn way(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
+fn pointer_steps(from: Pos2, to: Pos2) -> impl Iterator<Item = Pos2> {
     let rays = ((to - from).length() / SPACING).ceil() as usize;
     let rays = rays.clamp(1, MOST_RAYS);
     (1..=rays).map(move |i| from.lerp(to, i as f32 / rays as f32))
 }
 
-fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
+fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<StrokeDrag> {
     let place = world.stroke_point(pos)?;
     let hit = place.hit;
     let object = work.document.description().objects.get(hit.object)?;
@@ -269,7 +269,7 @@ fn begin(work: &mut Workspace, world: World, pos: Pos2) -> Option<Going> {
         erase: work.toolbox.tool == Tool::Eraser,
         ..settings(work, &hit)
     };
-    let mut going = Going {
+    let mut going = StrokeDrag {
         object: hit.object,
         settings,
         world_from_object,
@@ -295,7 +295,7 @@ fn settings(work: &mut Workspace, hit: &Picked) -> BrushSettings {
 /// All strokes of the drag as one step, after those of `last`, which no picture may show yet. `clean` may be pictures without them.
 fn finish(
     work: &mut Workspace,
-    mut going: Going,
+    mut going: StrokeDrag,
     last: Option<Drawn>,
     clean: &[Arc<Frame>],
 ) -> Option<Drawn> {
@@ -308,13 +308,17 @@ fn finish(
         false => "Brush stroke",
     };
     let radius_m = going.settings.radius_m;
-    let mut ways_m: Vec<_> = going.done.iter().map(|(_, way_m)| way_m.clone()).collect();
+    let mut paths_m: Vec<_> = going
+        .done
+        .iter()
+        .map(|(_, path_m)| path_m.clone())
+        .collect();
     let (description, revision) = (work.document.description(), work.document.revision());
     let is_without = |frame: &&Arc<Frame>| makes_same_scene(&frame.built.description, description);
     let mut before: Vec<_> = clean.iter().filter(is_without).cloned().collect();
     if let Some(last) = last.filter(|last| last.revision == revision && !last.is_judged) {
         // All that the picture is without.
-        ways_m.extend(last.ways_m);
+        paths_m.extend(last.paths_m);
         before = last.before;
     }
     let done = work.document.apply(label, |description, selection| {
@@ -333,7 +337,7 @@ fn finish(
         return None;
     }
     Some(Drawn {
-        ways_m,
+        paths_m,
         revision: work.document.revision(),
         strokes: stroke_count(work.document.description()),
         tool: work.toolbox.tool,

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use egui::Color32;
 
-use crate::engine::{Engine, View};
+use crate::progressive::{ProgressiveRenderer, View};
 
 /// Time to wait for a picture, before the window is drawn without it. A picture in motion takes less if nothing else runs.
 const PATIENCE: Duration = Duration::from_millis(100);
@@ -39,13 +39,13 @@ impl SoftwareWindow {
 
     /// Waits for the picture of the view since the last pass. A frame without it would take as long as the picture, from the
     /// same cores, and show nothing new.
-    pub fn wait_for_picture(&mut self, engine: &Engine, view: View, revision: u64) {
+    pub fn wait_for_picture(&mut self, renderer: &ProgressiveRenderer, view: View, revision: u64) {
         let is_new = self
             .waited_for
             .is_none_or(|(last, of)| of != revision || !last.has_same_pixels(&view));
         self.waited_for = Some((view, revision));
-        if is_new && engine.latest().is_some() {
-            engine.wait_for_picture(revision, PATIENCE);
+        if is_new && renderer.latest().is_some() {
+            renderer.wait_for_picture(revision, PATIENCE);
         }
     }
 }

@@ -31,7 +31,7 @@ impl Workspace {
         let camera = self.camera();
         let eye_m = self.eye_m();
         let ray = (middle_m - eye_m).normalize_or(DVec3::NEG_Z);
-        let built = self.engine.built();
+        let built = self.renderer.built();
         let hit = built.and_then(|it| it.triangles.intersect(eye_m, ray));
         let seen = hit.filter(|hit| hit.object as usize == object);
         let forward = DVec3::from(camera.target_m) - eye_m;

@@ -85,7 +85,7 @@ impl Workspace {
 
     /// Extreme points of some objects; of all that the scene is about where they have nothing. As it was built last.
     fn points_of(&self, objects: &[usize]) -> Vec<DVec3> {
-        let Some(built) = self.engine.built() else {
+        let Some(built) = self.renderer.built() else {
             return navigate::corners(UNKNOWN_M.0, UNKNOWN_M.1).to_vec();
         };
         if let Some((low_m, high_m)) = self.empty_bounds_m() {
@@ -146,7 +146,7 @@ impl Workspace {
     /// The box around all objects, where they are built as they are described.
     pub fn built_bounds_m(&self) -> Option<(DVec3, DVec3)> {
         let objects = &self.document.description().objects;
-        let built = self.engine.built()?;
+        let built = self.renderer.built()?;
         let is_built = built.description.objects == *objects;
         let bounds_m = is_built.then(|| self.bounds_of(|i| i < objects.len()))?;
         bounds_m.or_else(|| self.empty_bounds_m())
@@ -154,7 +154,7 @@ impl Workspace {
 
     /// Replaces the scene's lights by lights that show its scratches.
     pub fn light_for_scratches(&mut self) {
-        let built = self.engine.built();
+        let built = self.renderer.built();
         let before = self.shown();
         match (built, self.built_bounds_m()) {
             (Some(built), Some(_)) => {
@@ -178,7 +178,7 @@ impl Workspace {
     /// What the newest picture shows of its scratches, if it is a whole one: a coarse one has others.
     pub fn shown(&self) -> Option<Shown> {
         let frame = self
-            .engine
+            .renderer
             .latest()
             .filter(|frame| frame.has_all_scratches());
         frame?.findings.shown
@@ -195,7 +195,7 @@ impl Workspace {
             self.reading.tried = None;
             return;
         }
-        let frame = self.engine.latest().filter(|frame| {
+        let frame = self.renderer.latest().filter(|frame| {
             frame.has_all_scratches() && frame.built.description.lights == tried.lights
         });
         let Some((mut stops, shown)) = frame.and_then(|frame| frame.findings.best_lamps) else {
@@ -239,7 +239,7 @@ impl Workspace {
 
     /// Bounds of each object.
     fn boxes_m(&self) -> Vec<(DVec3, DVec3)> {
-        let Some(built) = self.engine.built() else {
+        let Some(built) = self.renderer.built() else {
             return Vec::new();
         };
         let objects = built.scene.objects.iter();

@@ -15,9 +15,9 @@ impl Workspace {
             return Err("select a layer of scratches first".to_owned());
         };
         let built = self
-            .engine
+            .renderer
             .built()
-            .filter(|it| !it.is_sketch() && !self.engine.is_building());
+            .filter(|it| !it.is_sketch() && !self.renderer.is_building());
         let built = built.ok_or("the scratches are being laid; try again in a moment")?;
         let number = self.selection().object(&built.description);
         let number = number.ok_or("the layer lies on no object")?;

@@ -10,7 +10,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use hairline_document::Description;
 use hairline_document::description::Light;
 use hairline_fixtures::SceneFile;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 /// The scene of `hairline view` without a file.
@@ -128,9 +128,9 @@ pub fn wait_until(
 /// Passes until the newest description is built.
 pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
     wait_until(harness, "the scene is built", |viewer| {
-        let engine = viewer.engine();
-        !engine.is_building()
-            && engine.built().is_some_and(|built| {
+        let renderer = viewer.renderer();
+        !renderer.is_building()
+            && renderer.built().is_some_and(|built| {
                 built.description.objects == viewer.document().description().objects
             })
     });

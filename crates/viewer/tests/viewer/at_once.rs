@@ -4,7 +4,7 @@ use crate::common::{SMALL, description, viewer, viewer_in, wait_built, wait_unti
 use crate::files::drop_file;
 use hairline_scene::Transport;
 use hairline_viewer::Options;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 
 /// Sixty-four rays in each pixel take a while: the exposure does not wait for them.
 #[test]
@@ -27,7 +27,7 @@ fn exposure_is_applied_while_a_picture_refines() {
     );
     wait_built(&mut harness);
     wait_until(&mut harness, "all pixels", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| frame.painted.size_px == frame.view.size_px)
     });
     let document = harness.state_mut().document_mut();
@@ -35,11 +35,11 @@ fn exposure_is_applied_while_a_picture_refines() {
         description.camera.exposure_ev += 1.5
     });
     let is_brighter = |viewer: &hairline_viewer::Viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| frame.view.display.exposure_ev > 1.0)
     };
     wait_until(&mut harness, "the new exposure", is_brighter);
-    let frame = harness.state().engine().latest().unwrap();
+    let frame = harness.state().renderer().latest().unwrap();
     assert!(!frame.painted.is_final, "it was still refining");
 }
 
@@ -58,13 +58,13 @@ fn nothing_of_another_scene_is_shown() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     drop_file(&mut harness, &other);
     assert_eq!(description(&harness).objects[0].name, "plate");
     wait_until(&mut harness, "a picture of the other scene", |viewer| {
-        let engine = viewer.engine();
-        let shown = engine
+        let renderer = viewer.renderer();
+        let shown = renderer
             .latest()
             .map(|frame| frame.built.description.objects[0].name.clone());
         assert!(shown.as_deref() != Some("disk"), "the scene that was left");

@@ -33,13 +33,13 @@ fn a_new_scene_is_an_empty_studio_in_which_bodies_stand_side_by_side() {
     wait_built(&mut harness);
     let empty = description(&harness);
     assert!(empty.objects.is_empty() && !empty.studio.hidden);
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     assert!(built.scene.lights.len() > 3, "the studio shines");
     assert_eq!(built.scene.objects.len(), 1, "the ground is there");
     for name in ["Sphere", "Box", "Torus", "Plane"] {
         add_shape(&mut harness, name);
     }
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     let bodies = &built.scene.objects[..4];
     let boxes: Vec<_> = bodies.iter().map(|body| body.mesh.bounds_m()).collect();
     let sizes = boxes.iter().map(|(low, high)| low.distance(*high));

@@ -62,11 +62,11 @@ fn a_fast_drag_stays_on_a_bent_surface() {
     common::drag(&mut harness, from, from + vec2(180.0, 0.0), 1);
     let drawn = strokes(&harness);
     assert_eq!(drawn.len(), 1);
-    let way: Vec<DVec3> = drawn[0].points_m.iter().map(|&p| p.into()).collect();
-    assert!(way.len() > 4, "{} points", way.len());
+    let path: Vec<DVec3> = drawn[0].points_m.iter().map(|&p| p.into()).collect();
+    assert!(path.len() > 4, "{} points", path.len());
     // Straight pieces stray from the sphere by the brush's own tolerance, a twentieth of its radius; one straight line
     // would stray by half of the ball's.
-    for pair in way.windows(2) {
+    for pair in path.windows(2) {
         let height_m = (0.5 * (pair[0] + pair[1])).length();
         let low_m = BALL_RADIUS_M - height_m;
         assert!(
@@ -154,7 +154,7 @@ fn a_stroke_that_the_picture_waits_for_lies_where_the_pointer_was() {
     assert_eq!(strokes(&harness).len(), 1);
     harness.step();
     let viewer = harness.state();
-    let frame = viewer.engine().latest().unwrap();
+    let frame = viewer.renderer().latest().unwrap();
     if frame.built.revision == viewer.document().revision() {
         return;
     }
@@ -253,7 +253,7 @@ fn the_first_stroke_is_seen(scene: &'static str) {
     let options = hairline_viewer::Options {
         scene: None,
         built_in: scene,
-        backend: hairline_viewer::engine::Backend::Cpu,
+        backend: hairline_viewer::progressive::Backend::Cpu,
         state_dir: None,
         native_dialogs: false,
         transport: hairline_scene::Transport::DIRECT,
@@ -304,18 +304,18 @@ fn the_first_stroke_is_seen_among_many_scratches() {
 /// The first picture in its full size with every stroke that was drawn; samples of edges may come later.
 fn full_size(harness: &mut Harness<'static, Viewer>) -> std::sync::Arc<egui::ColorImage> {
     common::wait_until(harness, "a picture in full size", |viewer| {
-        let engine = viewer.engine();
+        let renderer = viewer.renderer();
         let revision = viewer.document().revision();
-        !engine.is_building()
-            && engine.latest().is_some_and(|frame| {
+        !renderer.is_building()
+            && renderer.latest().is_some_and(|frame| {
                 let is_full = frame.painted.size_px == frame.view.size_px;
                 is_full && frame.built.revision == revision
             })
     });
-    let frame = harness.state().engine().latest().unwrap();
+    let frame = harness.state().renderer().latest().unwrap();
     match &frame.picture {
-        hairline_viewer::engine::Picture::Pixels(image) => image.clone(),
-        hairline_viewer::engine::Picture::Texture(_) => panic!("the CPU paints pixels"),
+        hairline_viewer::progressive::Picture::Pixels(image) => image.clone(),
+        hairline_viewer::progressive::Picture::Texture(_) => panic!("the CPU paints pixels"),
     }
 }
 
@@ -342,7 +342,7 @@ fn a_stroke_that_hardly_shows_is_marked_and_told_of() {
     let mut harness = with_brush(plate_with_highlight_at(40.0));
     let is_whole = |viewer: &Viewer| {
         viewer
-            .engine()
+            .renderer()
             .latest()
             .is_some_and(|frame| frame.painted.is_final)
     };
@@ -352,7 +352,7 @@ fn a_stroke_that_hardly_shows_is_marked_and_told_of() {
     assert_eq!(marks(&harness), 1, "nothing shows it yet");
     let revision = harness.state().document().revision();
     common::wait_until(&mut harness, "a whole picture of it", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|it| it.built.revision >= revision && it.painted.is_final)
     });
     harness.run_steps(2);

@@ -10,7 +10,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use hairline_cpu::closed_form::{Prepared, RenderOptions};
 use hairline_image::{Image, Layer};
 use hairline_index::{Pieces, Watch};
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Figures, LayerFigures, Options, Viewer};
 
 /// A window whose panels leave little room for the picture, with few pixels, so that samples come soon.
@@ -27,7 +27,7 @@ fn viewer(scene: &'static str) -> Harness<'static, Viewer> {
     let mut harness = common::viewer_in(options, [640.0, 400.0], 0.5);
     common::wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     harness
 }

@@ -94,7 +94,7 @@ fn all_text_can_be_read() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     harness.run_steps(4);
     is_read(&harness, "first start");

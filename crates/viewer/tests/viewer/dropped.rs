@@ -73,7 +73,7 @@ fn an_stl_file_is_dropped_as_an_object() {
         viewer.document().description().objects.len() == 2
     });
     wait_built(&mut harness);
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     let (low, high) = built.scene.objects[1].mesh.bounds_m();
     assert!((high - low).max_element() < 0.0901);
     undo(&mut harness);
@@ -127,7 +127,7 @@ fn a_metal_is_dropped_onto_a_part_of_a_model() {
     let object = description(&harness).objects[0].clone();
     assert_eq!((object.material, object.overrides), (None, vec![expected]));
     wait_until(&mut harness, "the metal", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|it| it.description.objects[0].overrides.len() == 1)
     });
     // A click means all of the object, and a file's materials with what was changed in them give way.
@@ -168,7 +168,7 @@ fn objects_are_hidden_by_their_box_with_all_that_lies_on_them() {
     click_on(&mut harness, "Show object 1");
     assert!(description(&harness).objects[0].hidden);
     wait_until(&mut harness, "an empty scene", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|built| {
             let object = &built.scene.objects[0];
             object.mesh.triangles.is_empty() && object.scratches.is_empty()
@@ -214,7 +214,7 @@ fn a_text_is_as_wide_as_the_selected_object_and_lies_on_it() {
     wait_built(&mut harness);
     select(&mut harness, Selection::Object(0));
     let (low_m, high_m) = {
-        let built = harness.state().engine().built().unwrap();
+        let built = harness.state().renderer().built().unwrap();
         built.scene.objects[0].mesh.bounds_m()
     };
     click_on(&mut harness, "Add to objects");
@@ -222,7 +222,7 @@ fn a_text_is_as_wide_as_the_selected_object_and_lies_on_it() {
     wait_built(&mut harness);
     let text = description(&harness).objects.last().unwrap().clone();
     assert!(matches!(text.surface, Surface::Shape(Shape::Text { .. })));
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     let made = built.scene.objects.iter().find(|it| it.name == text.name);
     let (low, high) = made.unwrap().mesh.bounds_m();
     let share = (high.x - low.x) / (high_m.x - low_m.x);

@@ -17,7 +17,7 @@ use hairline_image::metrics::layer_difference;
 use hairline_image::tone_map::srgb_from_linear;
 use hairline_image::{Display, Image, Layer, exr_file, png};
 use hairline_scene::Scene;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 /// Pictures that are soon done.
@@ -156,7 +156,7 @@ fn a_picture_of_a_gpu_is_what_its_renderer_makes() {
     let mut harness = common::viewer_in(options, [760.0, 600.0], 0.25);
     // Else both would compile the same shaders, side by side.
     common::wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     let path = folder.path().join("a.exr");
     save_picture(&mut harness, &path);
@@ -259,7 +259,7 @@ fn the_form_says_how_long_it_takes_and_where_nothing_is_transparent() {
         common::click_on(&mut harness, "Transparent background");
         assert!(harness.query_by_label_contains(FILLED).is_none());
         common::click_on(&mut harness, "Cancel");
-        assert!(!harness.state().engine().is_resting());
+        assert!(!harness.state().renderer().is_resting());
     }
 }
 
@@ -287,7 +287,7 @@ fn begun(folder: &Path) -> Harness<'static, Viewer> {
 fn cancelling_leaves_whole_pictures_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = begun(folder.path());
-    assert!(harness.state().engine().is_resting());
+    assert!(harness.state().renderer().is_resting());
     common::click_on(&mut harness, "Cancel the export");
     // The window answers before the thread has ended.
     assert!(!harness.state().is_exporting());
@@ -298,7 +298,7 @@ fn cancelling_leaves_whole_pictures_and_nothing_else() {
         let count = format!("{written} of 2000 pictures are complete and stay");
         viewer.messages().concat().contains(&count)
     });
-    assert!(!harness.state().engine().is_resting());
+    assert!(!harness.state().renderer().is_resting());
 }
 
 #[test]

@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_image::{Display, Output, Picture};
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 #[derive(Debug)]
@@ -218,7 +218,7 @@ fn are_added(model: &Path, map: &Path) {
         viewer.document().description().environment.is_some()
     });
     wait_until(&mut harness, "the scene", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|built| {
             built.scene.objects.len() == 2 && built.scene.environment.is_some()
         })

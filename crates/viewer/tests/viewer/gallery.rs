@@ -11,7 +11,7 @@ use hairline_editor::Selection;
 use hairline_editor::presets::ShapePreset;
 use hairline_optics::metal::Metal;
 use hairline_sky::BuiltInMap;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 fn select(harness: &mut Harness<'static, Viewer>, selection: Selection) {
@@ -107,7 +107,7 @@ fn a_map_in_the_box_is_named_in_the_scene() {
         assert!(harness.state().messages().is_empty());
         if file.is_some() {
             common::wait_until(&mut harness, "the map", |viewer| {
-                let built = viewer.engine().built();
+                let built = viewer.renderer().built();
                 built.is_some_and(|built| built.scene.environment.is_some())
             });
             harness.key_press_modifiers(Modifiers::COMMAND, Key::S);

@@ -12,7 +12,7 @@ use hairline_viewer::Viewer;
 const SOON: Duration = Duration::from_secs(10);
 
 fn shows_what_is_wanted(viewer: &Viewer) -> bool {
-    let frame = viewer.engine().latest();
+    let frame = viewer.renderer().latest();
     frame.is_some_and(|frame| {
         let wanted = viewer.view();
         wanted.is_some_and(|wanted| frame.view.has_same_pixels(&wanted))
@@ -33,7 +33,7 @@ fn press(harness: &mut Harness<'static, Viewer>, key: Key) -> Duration {
 fn all_is_framed_and_then_the_pan_while_the_built_in_scene_is_refined() {
     let mut harness = viewer(BUILT_IN);
     wait_until(&mut harness, "the finest picture has begun", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         // The one before it is there.
         frame.is_some_and(|frame| 3 * frame.painted.size_px[0] > frame.view.size_px[0])
     });

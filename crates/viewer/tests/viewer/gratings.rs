@@ -126,7 +126,7 @@ fn are_added_and_built(presets: &[GratingPreset]) {
         let pitch_um = preset.grating("disk").pitch_um;
         assert_eq!(grating(&harness).pitch_um, pitch_um);
         wait_until(&mut harness, preset.name(), |viewer| {
-            let built = viewer.engine().built();
+            let built = viewer.renderer().built();
             built.is_some_and(|built| {
                 built.description.gratings == viewer.document().description().gratings
             })

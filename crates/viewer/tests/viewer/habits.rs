@@ -11,7 +11,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use glam::{DVec2, DVec3};
 use hairline_editor::Selection;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 fn distance_m(harness: &Harness<'static, Viewer>) -> f64 {
@@ -121,7 +121,7 @@ fn is_framed(scene: &str, object: &str) {
     key(&mut harness, Key::A);
     let d = description(&harness);
     let i = d.objects.iter().position(|o| o.name == object).unwrap();
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     let vertices = &built.scene.objects[i].mesh.positions_m;
     let camera = harness.state().camera();
     let size = DVec2::from(d.render.size_px.map(f64::from));
@@ -219,7 +219,11 @@ fn a_new_name_and_an_unused_material_leave_the_picture() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     let revision = |harness: &Harness<'static, Viewer>| {
-        harness.state().engine().built().map(|built| built.revision)
+        harness
+            .state()
+            .renderer()
+            .built()
+            .map(|built| built.revision)
     };
     let before = revision(&harness);
     let edits: [fn(&mut hairline_document::Description); 4] = [
@@ -237,7 +241,7 @@ fn a_new_name_and_an_unused_material_leave_the_picture() {
     for (i, edit) in edits.into_iter().enumerate() {
         harness.state_mut().document_mut().edit("by the test", edit);
         harness.run_steps(3);
-        assert!(!harness.state().engine().is_building(), "edit {i}");
+        assert!(!harness.state().renderer().is_building(), "edit {i}");
         assert_eq!(revision(&harness), before, "edit {i}");
     }
     // A visible change is built.
@@ -247,7 +251,7 @@ fn a_new_name_and_an_unused_material_leave_the_picture() {
     });
     document.edit("by the test", |d| d.materials[0].roughness = 0.5);
     wait_until(&mut harness, "another scene", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|built| Some(built.revision) != before)
     });
 }

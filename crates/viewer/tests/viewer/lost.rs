@@ -4,7 +4,7 @@ use crate::common::{bare_disk, viewer_in, wait_built, wait_until};
 use hairline_gpu::AdapterRequest;
 use hairline_gpu::headless::{self, test_gpu};
 use hairline_viewer::Options;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 
 fn options(backend: Backend) -> Options {
     Options {
@@ -23,11 +23,11 @@ fn goes_on(backend: Backend, device: wgpu::Device, message: &str) {
     let mut harness = viewer_in(options(backend), [760.0, 400.0], 0.25);
     wait_built(&mut harness);
     wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     let number = harness
         .state()
-        .engine()
+        .renderer()
         .latest()
         .map_or(0, |frame| frame.number);
     device.destroy();
@@ -40,7 +40,7 @@ fn goes_on(backend: Backend, device: wgpu::Device, message: &str) {
     });
     wait_until(&mut harness, "a picture after the loss", |viewer| {
         viewer
-            .engine()
+            .renderer()
             .latest()
             .is_some_and(|frame| frame.number > number && frame.view.camera.position_m == wanted)
     });

@@ -16,7 +16,7 @@ fn shown() -> Harness<'static, Viewer> {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     harness
 }
@@ -42,7 +42,7 @@ fn a_click_reads_the_nearest_scratch() {
     key(&mut harness, Key::M);
     harness.get_by_label("Click on a scratch, or drag over a surface.");
     let (at, width, length) = {
-        let built = harness.state().engine().built().unwrap();
+        let built = harness.state().renderer().built().unwrap();
         let object = &built.scene.objects[0];
         // The one that is farthest from all others in its middle would be best; any will do that is met.
         let scratch = &object.scratches[17];
@@ -144,14 +144,14 @@ fn the_list_shows_few_rows_and_its_file_is_laid_again() {
     harness.run_steps(2);
     key(&mut harness, Key::Enter);
     wait_until(&mut harness, "the file", |_| path.exists());
-    let laid = harness.state().engine().built().unwrap();
+    let laid = harness.state().renderer().built().unwrap();
     // Dropped onto the window it is a layer with the same scratches.
     crate::files::drop_file(&mut harness, &path);
     wait_until(&mut harness, "the layer of the file", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|it| it.scene.objects[0].of_layer(1).len() == 200)
     });
-    let built = harness.state().engine().built().unwrap();
+    let built = harness.state().renderer().built().unwrap();
     let [before, after] = [&laid, &built].map(|it| &it.scene.objects[0]);
     for i in 0..200 {
         let [a, b] = [

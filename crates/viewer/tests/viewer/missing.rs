@@ -12,7 +12,7 @@ use hairline_viewer::Viewer;
 fn opened(scene: &Path) -> Harness<'static, Viewer> {
     let mut harness = viewer_of_any_file(scene);
     wait_until(&mut harness, "the scene is looked at", |viewer| {
-        !viewer.engine().is_building()
+        !viewer.renderer().is_building()
     });
     harness.run_steps(2);
     harness

@@ -26,7 +26,7 @@ fn opened(selection: Selection) -> (Harness<'static, Viewer>, tempfile::TempDir)
 /// Waits until a material of the built scene has this roughness, and the other one its own.
 fn wait_for_roughness(harness: &mut Harness<'static, Viewer>, gold: f64) {
     wait_until(harness, "the roughness of gold", |viewer| {
-        viewer.engine().built().is_some_and(|built| {
+        viewer.renderer().built().is_some_and(|built| {
             let of = |name: &str| {
                 let mut materials = built.scene.materials.iter();
                 materials.find(|it| it.name == name).map(|it| it.roughness)

@@ -284,17 +284,21 @@ fn tab_goes_on_to_the_next_value() {
         .focus();
     harness.run_steps(2);
     let first = focused(&harness).unwrap();
-    let mut way = vec![first];
+    let mut focus_order = vec![first];
     for _ in 0..4 {
         harness.key_press(Key::Tab);
         harness.run_steps(3);
-        way.push(focused(&harness).expect("a box"));
+        focus_order.push(focused(&harness).expect("a box"));
     }
-    way.dedup();
-    assert_eq!(way.len(), 5, "{way:?}");
+    focus_order.dedup();
+    assert_eq!(focus_order.len(), 5, "{focus_order:?}");
     harness.key_press_modifiers(egui::Modifiers::SHIFT, Key::Tab);
     harness.run_steps(3);
-    assert_eq!(focused(&harness).as_deref(), Some(&*way[3]), "{way:?}");
+    assert_eq!(
+        focused(&harness).as_deref(),
+        Some(&*focus_order[3]),
+        "{focus_order:?}"
+    );
     // What was typed counts.
     let before = description(&harness);
     harness

@@ -165,7 +165,12 @@ fn what_the_scene_names_is_read_again() {
     let listed = "\n[[scratches]]\nobject = \"disk\"\npattern = \"file\"\nfile = \"list.csv\"\n";
     std::fs::write(&path, format!("{SMALL}{listed}")).unwrap();
     let mut harness = open(&path);
-    let count = |viewer: &Viewer| viewer.engine().built().map_or(0, |b| b.scratch_counts().0);
+    let count = |viewer: &Viewer| {
+        viewer
+            .renderer()
+            .built()
+            .map_or(0, |b| b.scratch_counts().0)
+    };
     let before = count(harness.state());
     assert!(before > 0, "{:?}", harness.state().messages());
     replace(&csv, &format!("{head}{row}0,0.01,0,0.02,0.01,0,3,200\n"));
@@ -213,7 +218,7 @@ depth_nm = 200.0
     std::fs::write(&path, format!("{SMALL}{object}")).unwrap();
     let mut harness = open(&path);
     let extent_m = |viewer: &Viewer| {
-        let built = viewer.engine().built()?;
+        let built = viewer.renderer().built()?;
         let points = &built.scene.objects.get(1)?.mesh.positions_m;
         Some(points.iter().fold(0.0_f32, |most, p| most.max(p.x)))
     };

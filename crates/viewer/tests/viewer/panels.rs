@@ -14,7 +14,7 @@ use hairline_document::description::{Environment, Layer, Map, Pattern};
 use hairline_editor::Selection;
 use hairline_editor::presets::{LayerPreset, MaterialPreset};
 use hairline_image::{Display, Output, Picture};
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 /// Names of the controls of a kind in the panel on the right, but for those that are grey.
@@ -190,11 +190,11 @@ fn the_environment() {
     assert_eq!(every_number_is_live(&mut harness), 2);
     // A missing file is reported, and the picture stays.
     common::wait_until(&mut harness, "the scene is looked at", |viewer| {
-        viewer.engine().has_failed()
+        viewer.renderer().has_failed()
     });
     harness.run_steps(2);
     harness.get_by_label("The environment map there is none.hdr is not there.");
-    assert!(harness.state().engine().built().is_some());
+    assert!(harness.state().renderer().built().is_some());
     click_on(&mut harness, "Remove the map");
     assert_eq!(description(&harness).environment, None);
     harness.run_steps(2);
@@ -220,7 +220,7 @@ fn errors_of_scenes_that_are_gone_are_not_told() {
             harness.step();
         }
         common::wait_until(&mut harness, "the scene without", |viewer| {
-            let built = viewer.engine().built();
+            let built = viewer.renderer().built();
             built.is_some_and(|built| built.revision == viewer.document().revision())
         });
         harness.run_steps(2);
@@ -253,7 +253,7 @@ fn a_sun_in_the_environment() {
         });
     });
     common::wait_until(&mut harness, "the map", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|built| built.scene.environment.is_some())
     });
     select(&mut harness, Selection::Environment);

@@ -1,4 +1,4 @@
-//! A thread of the engine that panics: the window says so, and the next change has its picture.
+//! A thread of the renderer that panics: the window says so, and the next change has its picture.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,7 +9,7 @@ use crate::common::{SMALL, viewer, wait_built, wait_until};
 
 /// Whether the picture is that of the newest description.
 fn is_pictured(viewer: &Viewer) -> bool {
-    let frame = viewer.engine().latest();
+    let frame = viewer.renderer().latest();
     frame.is_some_and(|frame| frame.built.revision == viewer.document().revision())
 }
 

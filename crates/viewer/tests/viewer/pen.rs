@@ -98,9 +98,9 @@ fn delete_and_undo_take_the_lone_point_first() {
     let before = description(&harness);
     common::key(&mut harness, Key::Enter);
     let elsewhere = places(&harness)[1] - vec2(0.0, 30.0);
-    let ways: [fn(&mut Harness<'static, Viewer>); 2] =
+    let removals: [fn(&mut Harness<'static, Viewer>); 2] =
         [|harness| common::key(harness, Key::Delete), common::undo];
-    for take in ways {
+    for take in removals {
         common::click_at(&mut harness, elsewhere);
         take(&mut harness);
         assert_eq!(*description(&harness), *before);
@@ -175,7 +175,7 @@ fn a_click_on_a_finished_line_inserts_a_point() {
     let before = points(&harness, layer);
     // On the line, between its second and its third point.
     let middle_m = {
-        let built = harness.state().engine().built().unwrap();
+        let built = harness.state().renderer().built().unwrap();
         let object = &built.scene.objects[0];
         let own = object.of_layer(layer as u32);
         // The line is filled with scratches that follow one another.
@@ -305,7 +305,7 @@ fn a_drawing_that_is_dropped_is_engraved() {
     wait_built(&mut harness);
     drop_file(&mut harness, &file);
     common::wait_until(&mut harness, "the drawing is laid", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|it| it.scene.objects[0].scratches.len() > 100)
     });
     let layer = description(&harness).scratches[0].clone();

@@ -104,7 +104,7 @@ fn a_click_keeps_a_layer_to_the_part_that_is_there() {
     // The layer stays selected, and is laid on the right square alone.
     assert_eq!(harness.state().document().selection(), Selection::Layer(0));
     common::wait_until(&mut harness, "the layer lies on the right", |viewer| {
-        viewer.engine().built().is_some_and(|built| {
+        viewer.renderer().built().is_some_and(|built| {
             let segments = &built.scene.objects[0].segments;
             !segments.is_empty() && segments.iter().all(|it| it.start_m.x > -1e-5)
         })

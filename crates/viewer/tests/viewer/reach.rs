@@ -9,7 +9,7 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use hairline_editor::Selection;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 use std::path::Path;
 
@@ -123,7 +123,7 @@ fn the_brush_is_set_above_the_panel_of_what_is_selected() {
 fn messages_stand_above_the_snapshots() {
     let mut harness = viewer(SMALL);
     common::wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     key(&mut harness, Key::S);
     harness.run_steps(3);
@@ -178,7 +178,7 @@ fn enter_runs_a_command_and_closes_its_menu() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     harness.key_press_modifiers(Modifiers::ALT, Key::I);
     harness.run_steps(3);
@@ -214,7 +214,7 @@ fn a_very_small_window_cuts_nothing_off() {
     let mut harness = common::viewer_in(options, [640.0, 400.0], 0.25);
     wait_built(&mut harness);
     common::wait_until(&mut harness, "a picture", |viewer| {
-        viewer.engine().latest().is_some()
+        viewer.renderer().latest().is_some()
     });
     key(&mut harness, Key::S);
     harness.run_steps(3);

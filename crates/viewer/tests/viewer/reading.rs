@@ -5,7 +5,7 @@ use egui::{Key, Modifiers, Pos2, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_gpu::headless::test_gpu;
-use hairline_viewer::engine::{Backend, Frame, Picture};
+use hairline_viewer::progressive::{Backend, Frame, Picture};
 use hairline_viewer::reading::{Reading, Shows};
 use hairline_viewer::{Options, Viewer};
 use std::sync::Arc;
@@ -37,10 +37,10 @@ fn key(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {
 /// The finished picture of the current view.
 fn finished(harness: &mut Harness<'static, Viewer>) -> Arc<Frame> {
     wait_until(harness, "a finished picture", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| frame.painted.is_final && Some(frame.view) == viewer.view())
     });
-    harness.state().engine().latest().unwrap()
+    harness.state().renderer().latest().unwrap()
 }
 
 fn pixels(frame: &Frame) -> &egui::ColorImage {

@@ -31,7 +31,7 @@ fn a_broken_drawing_and_a_point_far_off_are_refused() {
     assert_eq!(harness.state().document().undo_label(), None);
     drop_file(&mut harness, &good);
     common::wait_until(&mut harness, "the drawing is laid", |viewer| {
-        let built = viewer.engine().built();
+        let built = viewer.renderer().built();
         built.is_some_and(|it| it.scene.objects[0].scratches.len() > 100)
     });
     assert_eq!(harness.state().messages(), [""; 0]);
@@ -61,7 +61,7 @@ fn a_step_in_a_scene_that_was_wrong_before_stays() {
     let document = harness.state_mut().document_mut();
     document.edit("Roughness", |d| d.materials[0].roughness = 0.3);
     common::wait_until(&mut harness, "the scene is looked at", |viewer| {
-        !viewer.engine().is_building() && viewer.messages().concat().contains("broken.svg")
+        !viewer.renderer().is_building() && viewer.messages().concat().contains("broken.svg")
     });
     harness.run_steps(3);
     assert_eq!(harness.state().document().undo_label(), Some("Roughness"));

@@ -34,7 +34,7 @@ fn a_region_is_drawn_by_a_drag_and_given_up_by_a_click_or_a_key() {
         "{drawn:?}"
     );
     wait_until(&mut harness, "the region", |viewer| {
-        viewer.engine().region().is_some()
+        viewer.renderer().region().is_some()
     });
     // Neither the scene nor the view is changed by it.
     assert_eq!(*description(&harness), *before);
@@ -53,11 +53,11 @@ fn the_picture_is_paused_by_a_button_and_a_key() {
     let mut harness = viewer(SMALL);
     wait_built(&mut harness);
     click_on(&mut harness, "Pause");
-    assert!(harness.state().engine().is_paused());
+    assert!(harness.state().renderer().is_paused());
     click_on(&mut harness, "Go on");
-    assert!(!harness.state().engine().is_paused());
+    assert!(!harness.state().renderer().is_paused());
     harness.key_press_modifiers(Modifiers::SHIFT, Key::P);
     harness.run_steps(3);
-    assert!(harness.state().engine().is_paused());
+    assert!(harness.state().renderer().is_paused());
     harness.get_by_label("Go on");
 }

@@ -8,7 +8,7 @@ use egui::ViewportId;
 fn a_finished_picture_leaves_the_window_at_rest() {
     let mut harness = viewer(SMALL);
     wait_until(&mut harness, "the final picture", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| frame.painted.is_final)
     });
     // Fading and sliding widgets come to rest.

@@ -7,7 +7,7 @@ use egui_kittest::{Harness, kittest::Queryable};
 use hairline_image::exr_file;
 use hairline_scene::Transport;
 use hairline_viewer::Viewer;
-use hairline_viewer::engine::Picture;
+use hairline_viewer::progressive::Picture;
 
 /// A disk under a lamp, and a smaller one between them.
 const SCREENED: &str = r#"
@@ -36,7 +36,7 @@ fn switch_shadows(harness: &mut Harness<'static, Viewer>) {
 
 fn wait_final(harness: &mut Harness<'static, Viewer>, shadows: bool) {
     wait_until(harness, "the final picture", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| {
             frame.painted.is_final && frame.painted.transport.shadows == shadows
         })
@@ -45,7 +45,7 @@ fn wait_final(harness: &mut Harness<'static, Viewer>, shadows: bool) {
 
 /// The sum of all codes of the picture in the window.
 fn brightness(harness: &Harness<'static, Viewer>) -> u64 {
-    let frame = harness.state().engine().latest().unwrap();
+    let frame = harness.state().renderer().latest().unwrap();
     let Picture::Pixels(pixels) = &frame.picture else {
         panic!("the CPU paints pixels");
     };
@@ -60,7 +60,7 @@ fn shadows_add_up_when_nothing_moves_and_begin_anew_when_something_did() {
     harness.get_by_label("no shadows");
     switch_shadows(&mut harness);
     harness.get_by_label("shadows");
-    let painted = |viewer: &Viewer| viewer.engine().latest().unwrap().painted.clone();
+    let painted = |viewer: &Viewer| viewer.renderer().latest().unwrap().painted.clone();
     wait_until(&mut harness, "some samples", |viewer| {
         let painted = painted(viewer);
         painted.of_samples == Some(64) && painted.samples >= 8
@@ -81,11 +81,11 @@ fn shadows_add_up_when_nothing_moves_and_begin_anew_when_something_did() {
 
     // A step of the view: without shadows at once, then with them from the first sample on.
     let at = common::picture(&harness).center() + vec2(0.0, 60.0);
-    let number = harness.state().engine().latest().unwrap().number;
+    let number = harness.state().renderer().latest().unwrap().number;
     common::press(&mut harness, at);
     common::move_to(&mut harness, at, at + vec2(30.0, 0.0), 2);
     wait_until(&mut harness, "a picture in motion", |viewer| {
-        let frame = viewer.engine().latest().unwrap();
+        let frame = viewer.renderer().latest().unwrap();
         frame.number > number && frame.painted.transport == Transport::DIRECT
     });
     common::release(&mut harness, at + vec2(30.0, 0.0));

@@ -16,9 +16,9 @@ fn opened() -> Harness<'static, Viewer> {
 
 fn finish(harness: &mut Harness<'static, Viewer>) {
     common::wait_until(harness, "a finished picture", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| {
-            frame.painted.is_final && Some(frame.view) == viewer.engine().view()
+            frame.painted.is_final && Some(frame.view) == viewer.renderer().view()
         })
     });
 }

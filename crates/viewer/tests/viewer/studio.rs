@@ -20,7 +20,7 @@ fn bare() -> Harness<'static, Viewer> {
 }
 
 fn built(harness: &Harness<'static, Viewer>) -> Scene {
-    harness.state().engine().built().unwrap().scene.clone()
+    harness.state().renderer().built().unwrap().scene.clone()
 }
 
 #[test]

@@ -8,7 +8,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use hairline_document::navigate;
 use hairline_editor::Selection;
-use hairline_viewer::engine::Backend;
+use hairline_viewer::progressive::Backend;
 use hairline_viewer::{Options, Viewer};
 
 fn key(harness: &mut Harness<'static, Viewer>, modifiers: Modifiers, key: Key) {
@@ -119,9 +119,9 @@ fn the_turntable_turns_the_view_until_it_is_stopped() {
     assert!(first != before.camera && second != first);
     let height_m = before.camera.position_m[2];
     assert!((first.position_m[2] - height_m).abs() < 1e-9);
-    let number = harness.state().engine().latest().map_or(0, |f| f.number);
+    let number = harness.state().renderer().latest().map_or(0, |f| f.number);
     wait_until(&mut harness, "a picture on the way", |viewer| {
-        let frame = viewer.engine().latest();
+        let frame = viewer.renderer().latest();
         frame.is_some_and(|frame| frame.number > number)
     });
     key(&mut harness, Modifiers::NONE, Key::Escape);

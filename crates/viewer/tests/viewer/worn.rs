@@ -20,7 +20,7 @@ fn scratches_that_are_hardly_seen_are_offered_other_light() {
     (harness.state_mut().document_mut()).select(Selection::Object(0));
     let noticed = |viewer: &Viewer| {
         viewer
-            .engine()
+            .renderer()
             .latest()?
             .findings
             .shown

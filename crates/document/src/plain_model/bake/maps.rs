@@ -38,7 +38,7 @@ struct Baked {
 }
 
 /// What the surface is by itself at a texel.
-struct Own {
+struct SurfaceTexel {
     /// Lean of its normals, as of [`TexelSum::lean`].
     lean: DVec2,
     /// Variance of slopes that its normal map has below a texel, both directions together.
@@ -130,7 +130,7 @@ pub(super) fn of_sums(
 
 /// Scratches on a surface, (48) of docs/model.md: the normal has their mean slope. What is left of the mean square slope, and what is lost to rounding, is
 /// variance, and widens the roughness: alpha squared is the mean square slope of facets.
-fn baked(own: &Own, sum: &TexelSum) -> Baked {
+fn baked(own: &SurfaceTexel, sum: &TexelSum) -> Baked {
     let scratches = DVec2::from(sum.lean.map(f64::from));
     let variance = f64::from(sum.square) - scratches.length_squared();
     let lean = own.lean + scratches;
@@ -155,7 +155,13 @@ fn baked(own: &Own, sum: &TexelSum) -> Baked {
 }
 
 /// The surface at a texel, whose middle is at these weights of a triangle's corners.
-fn own(atlas: &Atlas, triangle: u32, weights: DVec3, layer: &Layer, textures: &[Texture]) -> Own {
+fn own(
+    atlas: &Atlas,
+    triangle: u32,
+    weights: DVec3,
+    layer: &Layer,
+    textures: &[Texture],
+) -> SurfaceTexel {
     let mesh = atlas.mesh;
     let corners = mesh.triangles[triangle as usize];
     let look_up = |number: usize| {
@@ -167,7 +173,7 @@ fn own(atlas: &Atlas, triangle: u32, weights: DVec3, layer: &Layer, textures: &[
     };
     let rough = layer.roughness_texture.map(look_up);
     let bumps = layer.normal.map(|(number, scale)| (look_up(number), scale));
-    Own {
+    SurfaceTexel {
         lean: bumps.map_or(DVec2::ZERO, |(texel, scale)| {
             let n = 2.0 * texel.truncate() - DVec3::ONE;
             let n = n * DVec3::new(scale, scale, 1.0);

@@ -61,8 +61,8 @@ fn add(
             let offset_m: DVec3 = across * (side * (i as f64 + 0.5) * strip_m);
             let lean = direction * (side * steepness * slope.mean);
             let square = steepness * steepness * slope.mean_square;
-            let way = placed.in_map(ends_m.map(|end| end + offset_m));
-            walk(way, |x, y, part| {
+            let line = placed.in_map(ends_m.map(|end| end + offset_m));
+            walk(line, |x, y, part| {
                 if let Some(texel) = atlas.covered_texel(x, y) {
                     let (sum, share) = (&mut sums[texel], share * part);
                     sum.lean[0] += (share * lean.x) as f32;

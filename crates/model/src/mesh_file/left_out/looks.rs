@@ -12,7 +12,11 @@ pub(super) type Omission = (&'static str, usize, &'static str);
 pub(super) fn of_material(root: &Value, material: &Value) -> Vec<Omission> {
     let meaning = "a third way to place images on one surface; they lie as the first one";
     // A vertex has places for two.
-    let mut told = vec![("texCoord", ways(material).len().saturating_sub(2), meaning)];
+    let mut told = vec![(
+        "texCoord",
+        mappings(material).len().saturating_sub(2),
+        meaning,
+    )];
     let older = extension(material, spec_gloss::NAME);
     let [diffuse, specular] = spec_gloss::TEXTURES.map(|name| older?.get(name));
     if let (Some(diffuse), Some(specular)) = (diffuse, specular)
@@ -42,10 +46,10 @@ pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Omission> {
     if has("TANGENT") && has("NORMAL") {
         return Vec::new();
     }
-    let first = ways(material).first().copied();
+    let first = mappings(material).first().copied();
     let is_other = |texture: Option<&Value>| {
-        let way = texture.and_then(uv::of_json);
-        way.is_some() && way != first
+        let mapping = texture.and_then(uv::of_json);
+        mapping.is_some() && mapping != first
     };
     let mut told = Vec::new();
     if is_other(of_coat(material, coat::NORMALS)) {
@@ -53,7 +57,7 @@ pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Omission> {
         told.push(("tangents of clearcoatNormalTexture", 1, meaning));
     }
     if let Some(extension) = brushed(material) {
-        let set = first.map_or(0, |way| way.set);
+        let set = first.map_or(0, |mapping| mapping.set);
         if !has(&format!("TEXCOORD_{set}")) {
             let meaning = "there are neither tangents nor texture coordinates; highlights are drawn out any way";
             told.push(("direction of KHR_materials_anisotropy", 1, meaning));
@@ -66,7 +70,7 @@ pub(super) fn of_primitive(root: &Value, primitive: &Value) -> Vec<Omission> {
 }
 
 /// The different ways of the images that are read, in the order of [`uv::UvMappings`].
-fn ways(material: &Value) -> Vec<UvMapping> {
+fn mappings(material: &Value) -> Vec<UvMapping> {
     let pbr = material.get("pbrMetallicRoughness");
     let of_pbr = ["baseColorTexture", "metallicRoughnessTexture"].map(|name| pbr?.get(name));
     let own = ["emissiveTexture", "occlusionTexture"].map(|name| material.get(name));
@@ -80,17 +84,17 @@ fn ways(material: &Value) -> Vec<UvMapping> {
     let first = material.get("normalTexture").or(normals_of_coat);
     let uses = [first].into_iter().chain(of_pbr).chain(own).chain(older);
     let uses = uses.chain(of_layer).chain([of_anisotropy]).chain(specular);
-    let mut ways = Vec::new();
-    for way in uses
+    let mut mappings = Vec::new();
+    for mapping in uses
         .chain([normals_of_coat])
         .flatten()
         .filter_map(uv::of_json)
     {
-        if !ways.contains(&way) {
-            ways.push(way);
+        if !mappings.contains(&mapping) {
+            mappings.push(mapping);
         }
     }
-    ways
+    mappings
 }
 
 fn extension<'a>(material: &'a Value, name: &str) -> Option<&'a Value> {

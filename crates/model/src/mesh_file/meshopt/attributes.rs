@@ -30,15 +30,15 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
     };
     let end = packed.len().checked_sub(tail.max(padded));
     let end = end.filter(|end| *end >= 1).ok_or("it is cut off")?;
-    let (mut last, ways) = packed[packed.len() - tail..].split_at(stride);
-    let ways = match is_newer {
-        true => ways
+    let (mut last, codings) = packed[packed.len() - tail..].split_at(stride);
+    let codings = match is_newer {
+        true => codings
             .iter()
-            .map(|way| DeltaCoding::from_byte(*way))
+            .map(|coding| DeltaCoding::from_byte(*coding))
             .collect(),
         false => Some(vec![DeltaCoding::Bytes; stride / 4]),
     };
-    let ways = ways.ok_or("its differences are of an unknown kind")?;
+    let codings = codings.ok_or("its differences are of an unknown kind")?;
     let mut stream = Stream(&packed[1..end]);
     let mut bytes = vec![0; count * stride];
     let most = ((MOST_BYTES / stride) & !(GROUP - 1)).min(MOST_ELEMENTS);
@@ -47,7 +47,7 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
             true => stream.take(stride / 4)?,
             false => &[],
         };
-        for (channel, way) in ways.iter().enumerate() {
+        for (channel, coding) in codings.iter().enumerate() {
             let mut deltas = [[0; MOST_ELEMENTS]; 4];
             for (i, deltas) in deltas.iter_mut().enumerate() {
                 let deltas = &mut deltas[..block.len() / stride];
@@ -62,7 +62,7 @@ pub(super) fn unpacked(packed: &[u8], count: usize, stride: usize) -> Result<Vec
             let of = |element: &[u8]| std::array::from_fn(|i| element[4 * channel + i]);
             let mut value = of(last);
             for (i, element) in block.chunks_mut(stride).enumerate() {
-                value = way.next(value, deltas.map(|it| it[i]));
+                value = coding.next(value, deltas.map(|it| it[i]));
                 element[4 * channel..][..4].copy_from_slice(&value);
             }
         }
@@ -96,15 +96,15 @@ impl DeltaCoding {
     fn next(self, last: [u8; 4], delta: [u8; 4]) -> [u8; 4] {
         match self {
             Self::Bytes => std::array::from_fn(|i| {
-                let way = (delta[i] >> 1) ^ (delta[i] & 1).wrapping_neg();
-                last[i].wrapping_add(way)
+                let difference = (delta[i] >> 1) ^ (delta[i] & 1).wrapping_neg();
+                last[i].wrapping_add(difference)
             }),
             Self::Pairs => {
                 let pair = |of: [u8; 4], i: usize| u16::from_le_bytes([of[2 * i], of[2 * i + 1]]);
                 let next = |i: usize| {
                     let delta = pair(delta, i);
-                    let way = (delta >> 1) ^ (delta & 1).wrapping_neg();
-                    pair(last, i).wrapping_add(way).to_le_bytes()
+                    let difference = (delta >> 1) ^ (delta & 1).wrapping_neg();
+                    pair(last, i).wrapping_add(difference).to_le_bytes()
                 };
                 let [[a, b], [c, d]] = [next(0), next(1)];
                 [a, b, c, d]

@@ -123,8 +123,8 @@ impl LightCone {
         };
         let mut pieces = edges(&outer);
         pieces.extend(inner.into_iter().flat_map(|rim| edges(&rim)));
-        let ways = outer[1..].iter().map(|p| *p - apex);
-        let middle = ways.fold(Vec2::ZERO, |sum, way| sum + way);
+        let edges = outer[1..].iter().map(|p| *p - apex);
+        let middle = edges.fold(Vec2::ZERO, |sum, edge| sum + edge);
         if middle.length() > STEPS as f32 {
             // Distance to the side, as seen from the apex.
             let aside = |p: &Pos2| middle.rot90().dot((*p - apex).normalized());

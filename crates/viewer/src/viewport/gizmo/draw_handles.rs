@@ -107,16 +107,16 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
 
 /// Draws a mark at the edge of the picture towards a body outside of it.
 pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
-    let way = lens.towards(body.center_m);
+    let direction = lens.towards(body.center_m);
     let inside = area.rect.shrink(18.0);
     let half = 0.5 * inside.size();
-    if way == Vec2::ZERO || half.min_elem() <= 0.0 {
+    if direction == Vec2::ZERO || half.min_elem() <= 0.0 {
         return;
     }
     // Distance from the middle to the edge in this direction.
-    let reach = (half.x / way.x.abs().max(1e-6)).min(half.y / way.y.abs().max(1e-6));
-    let tip = inside.center() + way * reach;
-    let (back, aside) = (way * 12.0, way.rot90() * 7.0);
+    let reach = (half.x / direction.x.abs().max(1e-6)).min(half.y / direction.y.abs().max(1e-6));
+    let tip = inside.center() + direction * reach;
+    let (back, aside) = (direction * 12.0, direction.rot90() * 7.0);
     ink::blot(
         painter,
         vec![tip, tip - back + aside, tip - back - aside],
@@ -125,7 +125,7 @@ pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area:
     let words = format!("the {} lies outside; F brings it into view", body.noun);
     boxed(
         painter,
-        tip - way * 26.0,
+        tip - direction * 26.0,
         Align2::CENTER_CENTER,
         &words,
         PLAIN,

@@ -96,23 +96,23 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
         let Some(tip) = lens.project(center_m + axis * (m_per_point * f64::from(ARROW))) else {
             continue;
         };
-        let way = tip - middle;
-        if way.length() < SHORTEST {
+        let arm = tip - middle;
+        if arm.length() < SHORTEST {
             continue;
         }
-        directions.push(way.normalized());
+        directions.push(arm.normalized());
         placed.push(Placed {
             handle: Handle::Axis(i),
-            line: vec![middle + way.normalized() * GAP, tip],
+            line: vec![middle + arm.normalized() * GAP, tip],
             knob: tip,
         });
     }
     if body.resizes {
-        let way = freest(&directions);
-        let knob = middle + way * SIZE;
+        let direction = freest(&directions);
+        let knob = middle + direction * SIZE;
         placed.push(Placed {
             handle: Handle::Size,
-            line: vec![middle + way * GAP, knob],
+            line: vec![middle + direction * GAP, knob],
             knob,
         });
     }

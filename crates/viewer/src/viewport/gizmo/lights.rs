@@ -103,10 +103,10 @@ fn sun_sign(middle: Pos2, target: Pos2) -> Vec<[Pos2; 2]> {
     let circle = (0..16).map(|i| [around(i, SMALLEST), around(i + 1, SMALLEST)]);
     let rays = (0..16).step_by(2);
     let rays = rays.map(|i| [around(i, 1.5 * SMALLEST), around(i, 2.2 * SMALLEST)]);
-    let way = target - middle;
+    let arm = target - middle;
     // Seen from its end an arrow tells nothing.
-    let arrow = (way.length() > 6.0 * SMALLEST).then(|| {
-        let along = way.normalized();
+    let arrow = (arm.length() > 6.0 * SMALLEST).then(|| {
+        let along = arm.normalized();
         let tip = target - along * SMALLEST;
         let barb = |side: f32| tip - along * 9.0 + along.rot90() * (5.0 * side);
         [

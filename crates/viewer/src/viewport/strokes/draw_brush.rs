@@ -7,7 +7,7 @@ use glam::DVec3;
 use hairline_document::Description;
 use hairline_image::shown::FAINT;
 
-use crate::engine::Frame;
+use crate::progressive::Frame;
 use crate::tools::Tool;
 use crate::viewport::canvas::CanvasTexture;
 use crate::viewport::lens::Lens;
@@ -17,7 +17,7 @@ use crate::workspace::Workspace;
 
 /// Strokes of the scene that no picture shows yet, since laying takes long on a slow machine, or that hardly show.
 pub(super) struct Drawn {
-    pub ways_m: Vec<Vec<DVec3>>,
+    pub paths_m: Vec<Vec<DVec3>>,
     /// Revision of the document with the strokes.
     pub revision: u64,
     /// Number of strokes that the scene has with them: with fewer, they were taken away again.
@@ -35,7 +35,7 @@ pub(super) struct Drawn {
 impl Drawn {
     /// Whether no picture has them.
     pub fn is_awaited(&self, work: &Workspace) -> bool {
-        let shown = work.engine.latest().map(|frame| frame.built.revision);
+        let shown = work.renderer.latest().map(|frame| frame.built.revision);
         shown.is_some_and(|shown| shown < self.revision)
     }
 
@@ -45,8 +45,8 @@ impl Drawn {
 
     /// Compares a picture that has the strokes with one alike without them; where there was none, judges by what a whole one shows in all.
     fn judge(&mut self, work: &mut Workspace, lens: &Lens, area: &Area, canvas: &CanvasTexture) {
-        let view = work.engine.view();
-        let after = work.engine.latest().filter(|frame| {
+        let view = work.renderer.view();
+        let after = work.renderer.latest().filter(|frame| {
             frame.built.revision >= self.revision
                 && is_comparable(frame)
                 && Some(frame.view) == view
@@ -60,7 +60,7 @@ impl Drawn {
         let pair = before.and_then(|before| Some((pixels(before)?, pixels(&after)?)));
         self.is_faint = match pair {
             Some((before, after)) => {
-                changed(&before, &after, &self.ways_m, self.radius_m, lens, area) < LEAST_SEEN
+                changed(&before, &after, &self.paths_m, self.radius_m, lens, area) < LEAST_SEEN
             }
             None => {
                 let shown = after.findings.shown.filter(|_| self.is_judged);
@@ -105,7 +105,7 @@ const LEAST_SCALE: f64 = 0.35;
 fn changed(
     before: &ColorImage,
     after: &ColorImage,
-    ways_m: &[Vec<DVec3>],
+    paths_m: &[Vec<DVec3>],
     radius_m: f64,
     lens: &Lens,
     area: &Area,
@@ -121,7 +121,7 @@ fn changed(
         is_inside && std::iter::zip(at(before), at(after)).any(|(a, b)| a.abs_diff(b) >= SEEN)
     };
     let (mut looked_at, mut changed) = (0, 0);
-    for point_m in ways_m.iter().flatten() {
+    for point_m in paths_m.iter().flatten() {
         let Some(pos) = lens.project(*point_m) else {
             continue;
         };
@@ -170,8 +170,8 @@ pub(super) fn show_drawn(
         return;
     }
     let painter = ui.painter().with_clip_rect(area.rect);
-    for way_m in &drawn.ways_m {
-        show_way(&painter, &lens, way_m, color(drawn.tool));
+    for path_m in &drawn.paths_m {
+        show_path(&painter, &lens, path_m, color(drawn.tool));
     }
 }
 
@@ -199,11 +199,11 @@ pub(super) fn show_ring(
 }
 
 /// Shows the stroke that is being drawn.
-pub(super) fn show_way(painter: &Painter, lens: &Lens, way_m: &[DVec3], color: Color32) {
+pub(super) fn show_path(painter: &Painter, lens: &Lens, path_m: &[DVec3], color: Color32) {
     let [r, g, b, _] = color.to_array();
     let color = Color32::from_rgba_unmultiplied(r, g, b, 160);
     let mut points: Vec<Pos2> = Vec::new();
-    for pos in way_m.iter().filter_map(|point_m| lens.project(*point_m)) {
+    for pos in path_m.iter().filter_map(|point_m| lens.project(*point_m)) {
         // Nobody sees more of a line than a bend every other point.
         if points.last().is_none_or(|last| last.distance(pos) >= 2.0) {
             points.push(pos);

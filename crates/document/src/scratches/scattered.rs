@@ -1,4 +1,4 @@
-//! A layer whose scratches are strewn over the whole surface at random, along a pattern.
+//! A layer whose scratches are scattered over the whole surface at random, along a pattern.
 
 use std::f64::consts::TAU;
 
@@ -9,18 +9,18 @@ use super::laying::{Groove, Laying, scratch_profile};
 use super::random::Stream;
 use super::swirl::Lattice;
 use super::walk::{MeshPoint, Walker};
-use crate::description::{Around, Laid, Pattern};
+use crate::description::{Laid, Pattern, PatternAxis};
 use hairline_scene::{Bearing, Segment};
 
 /// A layer's description with the ground that it goes on.
-pub(super) struct Strewn<'a> {
+pub(super) struct Scattered<'a> {
     pub laid: &'a Laid,
     /// Number that distinguishes layers of one seed.
     pub number: u64,
     pub ground: &'a Ground,
 }
 
-impl Laying for Strewn<'_> {
+impl Laying for Scattered<'_> {
     fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove {
         let laid = self.laid;
         let mut stream = self.stream(index);
@@ -42,14 +42,14 @@ impl Laying for Strewn<'_> {
     }
 }
 
-impl Strewn<'_> {
+impl Scattered<'_> {
     fn stream(&self, index: u64) -> Stream {
         Stream::new(self.laid.seed, self.number, index)
     }
 
     /// `curvature` and `jitter` are standard normal draws.
     fn guide(&self, seed: MeshPoint, seed_angle_rad: f64, curvature: f64, jitter: f64) -> Guide {
-        let around = |around: &Around, bearing| Guide::Around {
+        let around = |around: &PatternAxis, bearing| Guide::Around {
             axis: self.ground.direction_in_world(around.axis),
             center_m: self.ground.point_in_world_m(around.center_m),
             bearing,

@@ -15,7 +15,7 @@ use crate::stamp::Stamp;
 use hairline_scene::Scene;
 
 /// A `[[scratches]]` table and where it goes.
-struct Coat<'a> {
+struct ScratchLayer<'a> {
     table: &'a description::Scratches,
     object: usize,
     /// Number of earlier layers on the same object with the same seed.
@@ -36,79 +36,88 @@ impl<'a> Work<'a> {
         surfaces: &[Arc<KeptSurface>],
         scene: &mut Scene,
     ) -> Result<(), Error> {
-        let mut coats = self.coats(surfaces)?;
-        let is_due = |coat: &Coat| coat.is_shown && coat.laid.is_none();
-        let used = coats.iter().filter(|coat| coat.is_shown);
-        let used = used.filter_map(|coat| coat.laid.as_deref());
+        let mut layers = self.layers(surfaces)?;
+        let is_due = |layer: &ScratchLayer| layer.is_shown && layer.laid.is_none();
+        let used = layers.iter().filter(|layer| layer.is_shown);
+        let used = used.filter_map(|layer| layer.laid.as_deref());
         let used_bytes = used.map(|kept| kept.laid.bytes()).sum::<f64>() + self.estimate.bytes();
-        for (i, coat) in coats
+        for (i, layer) in layers
             .iter_mut()
             .enumerate()
-            .filter(|(_, coat)| is_due(coat))
+            .filter(|(_, layer)| is_due(layer))
         {
             let key = format!("scratches[{i}]");
-            let ground = surfaces[coat.object].ground(&OnPart::from_layer(coat.table), &key)?;
-            coat.ground = Some(ground);
+            let ground = surfaces[layer.object].ground(&OnPart::from_layer(layer.table), &key)?;
+            layer.ground = Some(ground);
         }
         let mut tables = Vec::new();
-        for (i, coat) in coats.iter().enumerate() {
-            let Some(ground) = coat.ground.as_ref().filter(|_| is_due(coat)) else {
+        for (i, layer) in layers.iter().enumerate() {
+            let Some(ground) = layer.ground.as_ref().filter(|_| is_due(layer)) else {
                 continue;
             };
             let key = format!("scratches[{i}]");
             tables.push(scratches::Table {
-                layer: &coat.table.layer,
-                section: &coat.table.profile,
-                strokes: &coat.table.strokes,
-                number: coat.number,
+                layer: &layer.table.layer,
+                section: &layer.table.profile,
+                strokes: &layer.table.strokes,
+                number: layer.number,
                 ground: &ground.ground,
-                means: self.means(&coat.table.place, &surfaces[coat.object], &key, used_bytes)?,
+                means: self.means(
+                    &layer.table.place,
+                    &surfaces[layer.object],
+                    &key,
+                    used_bytes,
+                )?,
                 key,
             });
         }
         let laid = scratches::lay(self.loader, &tables, self.base_dir, used_bytes)?;
         drop(tables);
-        let due = coats.iter_mut().filter(|coat| is_due(coat));
-        for (coat, laid) in due.zip(laid) {
-            let Some(ground) = &coat.ground else {
+        let due = layers.iter_mut().filter(|layer| is_due(layer));
+        for (layer, laid) in due.zip(laid) {
+            let Some(ground) = &layer.ground else {
                 continue;
             };
-            coat.laid = Some(Arc::new(KeptLayer {
-                layer: coat.table.layer.clone(),
-                profile: coat.table.profile.clone(),
-                strokes: coat.table.strokes.clone(),
-                place: coat.table.place.clone(),
-                number: coat.number,
+            layer.laid = Some(Arc::new(KeptLayer {
+                layer: layer.table.layer.clone(),
+                profile: layer.table.profile.clone(),
+                strokes: layer.table.strokes.clone(),
+                place: layer.table.place.clone(),
+                number: layer.number,
                 ground: ground.ground.clone(),
-                files: coat.files.clone(),
+                files: layer.files.clone(),
                 laid: ground.on_the_whole(laid),
             }));
         }
-        for (i, coat) in coats.iter().enumerate().filter(|(_, coat)| coat.is_shown) {
-            if let Some(note) = coat.laid.as_ref().and_then(|kept| kept.laid.note.as_ref()) {
+        for (i, layer) in layers
+            .iter()
+            .enumerate()
+            .filter(|(_, layer)| layer.is_shown)
+        {
+            if let Some(note) = layer.laid.as_ref().and_then(|kept| kept.laid.note.as_ref()) {
                 scene.notes.push(format!("scratches[{i}]: {note}"));
             }
         }
         for (i, object) in scene.objects.iter_mut().enumerate() {
-            let layers = (0..).zip(&coats).filter_map(|(layer, coat)| {
-                let is_here = coat.is_shown && coat.object == i;
-                let laid = coat.laid.as_ref().filter(|_| is_here)?;
-                Some((layer, laid.clone()))
+            let shown = (0..).zip(&layers).filter_map(|(place, layer)| {
+                let is_here = layer.is_shown && layer.object == i;
+                let laid = layer.laid.as_ref().filter(|_| is_here)?;
+                Some((place, laid.clone()))
             });
-            let together = self.old.together(layers.collect())?;
+            let together = self.old.together(shown.collect())?;
             object.scratches = together.scratches.clone();
             object.segments = together.segments.clone();
             self.new.objects.push(together);
         }
-        let laid = coats.into_iter().filter_map(|coat| coat.laid);
+        let laid = layers.into_iter().filter_map(|layer| layer.laid);
         self.new.layers = laid.collect();
         Ok(())
     }
 
     /// Pairs all tables with the scratches that the last build has laid for them.
-    fn coats(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<Coat<'a>>, Error> {
+    fn layers(&self, surfaces: &[Arc<KeptSurface>]) -> Result<Vec<ScratchLayer<'a>>, Error> {
         let tables = &self.description.scratches;
-        let mut coats: Vec<Coat> = Vec::new();
+        let mut layers: Vec<ScratchLayer> = Vec::new();
         for (i, (table, standing)) in tables.iter().zip(standings(tables)).enumerate() {
             let names = self.description.objects.iter().map(|o| o.name.as_str());
             let key = format!("scratches[{i}].object");
@@ -122,7 +131,7 @@ impl<'a> Work<'a> {
             let laid = ground
                 .as_ref()
                 .and_then(|ground| self.old.layer(table, number, &ground.ground, &files));
-            coats.push(Coat {
+            layers.push(ScratchLayer {
                 files,
                 ground,
                 table,
@@ -132,7 +141,7 @@ impl<'a> Work<'a> {
                 laid,
             });
         }
-        Ok(coats)
+        Ok(layers)
     }
 
     /// Stamps of the files that a layer is read from.
@@ -158,10 +167,10 @@ impl<'a> Work<'a> {
         used_bytes: f64,
     ) -> Result<scratches::PlaceInputs<'a>, Error> {
         let mut picture = |name: &str, file: &Option<PathBuf>| {
-            let way = format!("{key}.where.{name}");
+            let key_path = format!("{key}.where.{name}");
             let read = file
                 .as_ref()
-                .map(|file| self.grey_map(&way, file, used_bytes));
+                .map(|file| self.grey_map(&key_path, file, used_bytes));
             read.transpose()
         };
         let mask = picture("mask", &place.mask)?;
@@ -175,7 +184,7 @@ impl<'a> Work<'a> {
         })
     }
 
-    /// A picture of a layer's places. `key` is the way to it.
+    /// A picture of a layer's places. `key` is its path.
     fn grey_map(&mut self, key: &str, file: &Path, used_bytes: f64) -> Result<Arc<GreyMap>, Error> {
         let path = self.base_dir.join(file);
         let stamp = Stamp::read(&path);

@@ -19,7 +19,7 @@ pub(super) struct BandSize {
     pub breaks_off: bool,
 }
 
-/// Many rows, so that no thread waits long for another. The engine of a page has no threads.
+/// Many rows, so that no thread waits long for another. The progressive renderer of a page has no threads.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) const OF_A_THREAD: BandSize = BandSize {
     first_px: 1 << 15,

@@ -11,7 +11,7 @@ use hairline_image::{Display, ToneMap};
 use hairline_scene::{Camera, Lens, Transport};
 use web_time::Instant;
 
-use super::super::{Backend, Engine, Frame, Picture, Region, SHADOW_SAMPLES, View};
+use super::super::{Backend, Frame, Picture, ProgressiveRenderer, Region, SHADOW_SAMPLES, View};
 
 /// A loaded machine is slow.
 const PATIENCE: Duration = Duration::from_secs(600);
@@ -48,13 +48,13 @@ fn view() -> View {
     }
 }
 
-/// Lets the engine work until its picture is the last one. Never waits where it says that there is nothing to do.
-fn last_picture(engine: &mut Engine) -> Arc<Frame> {
+/// Lets the progressive renderer work until its picture is the last one. Never waits where it says that there is nothing to do.
+fn last_picture(renderer: &mut ProgressiveRenderer) -> Arc<Frame> {
     let start = Instant::now();
     loop {
         assert!(start.elapsed() < PATIENCE, "no picture came");
-        let pause = engine.work();
-        if let Some(frame) = engine.latest()
+        let pause = renderer.work();
+        if let Some(frame) = renderer.latest()
             && frame.painted.is_final
         {
             return frame;
@@ -70,17 +70,17 @@ fn pixels(frame: &Frame) -> Vec<egui::Color32> {
     }
 }
 
-fn wanted(engine: &Engine) {
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(view());
+fn wanted(renderer: &ProgressiveRenderer) {
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(view());
 }
 
 #[test]
 fn it_paints_what_the_threads_paint() {
-    let mut in_turn = Engine::start_in_turn(Arc::new(|| {}));
+    let mut in_turn = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
     wanted(&in_turn);
     let ours = pixels(&last_picture(&mut in_turn));
-    let mut threads = Engine::start(Backend::Cpu, Arc::new(|| {}));
+    let mut threads = ProgressiveRenderer::start(Backend::Cpu, Arc::new(|| {}));
     wanted(&threads);
     let theirs = pixels(&last_picture(&mut threads));
     assert!(ours == theirs, "other pixels");
@@ -90,37 +90,40 @@ fn it_paints_what_the_threads_paint() {
 
 #[test]
 fn a_finer_picture_comes_in_slices() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(View {
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(View {
         size_px: [1280, 720],
         ..view()
     });
     let start = Instant::now();
     let mut slices = 0;
-    while engine.latest().is_none_or(|frame| !frame.painted.is_final) {
+    while renderer
+        .latest()
+        .is_none_or(|frame| !frame.painted.is_final)
+    {
         assert!(start.elapsed() < PATIENCE, "no picture came");
-        let pause = engine.work();
+        let pause = renderer.work();
         slices += 1;
         std::thread::sleep(pause.unwrap_or_default());
     }
     // A scene, a coarse picture and four finer ones would be 6, were they painted in one piece each.
     assert!(slices > 7, "{slices} slices");
-    assert_eq!(engine.work(), None);
+    assert_eq!(renderer.work(), None);
 }
 
 #[test]
 fn a_new_view_takes_the_place_of_what_is_being_refined() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    wanted(&engine);
-    let still = pixels(&last_picture(&mut engine));
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    wanted(&renderer);
+    let still = pixels(&last_picture(&mut renderer));
     let mut moved = view();
     moved.camera.position_m.x += 0.05;
-    engine.set_view(moved);
+    renderer.set_view(moved);
     // Begun, not done.
-    engine.work();
-    engine.set_view(view());
-    let back = last_picture(&mut engine);
+    renderer.work();
+    renderer.set_view(view());
+    let back = last_picture(&mut renderer);
     assert_eq!(back.view.camera, view().camera);
     assert!(
         pixels(&back) == still,
@@ -130,19 +133,19 @@ fn a_new_view_takes_the_place_of_what_is_being_refined() {
 
 #[test]
 fn a_scene_that_is_forgotten_in_the_middle_of_its_picture_is_followed_by_the_next() {
-    let mut engine = Engine::start(Backend::Cpu, Arc::new(|| {}));
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(View {
+    let mut renderer = ProgressiveRenderer::start(Backend::Cpu, Arc::new(|| {}));
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(View {
         size_px: [1280, 720],
         ..view()
     });
-    let first = wait_for(&mut engine, Engine::latest);
+    let first = wait_for(&mut renderer, ProgressiveRenderer::latest);
     assert!(!first.painted.is_final, "it has no middle");
-    engine.forget_scene();
+    renderer.forget_scene();
     // The next one takes long to build.
     std::thread::sleep(Duration::from_millis(500));
-    engine.set_scene(2, description(), PathBuf::new());
-    let next = wait_for(&mut engine, Engine::latest);
+    renderer.set_scene(2, description(), PathBuf::new());
+    let next = wait_for(&mut renderer, ProgressiveRenderer::latest);
     assert_eq!(next.built.revision, 2);
 }
 
@@ -166,12 +169,15 @@ const WIDE_PART: Region = Region {
 };
 
 /// Works until something is there.
-fn wait_for<T>(engine: &mut Engine, what: impl Fn(&Engine) -> Option<T>) -> T {
+fn wait_for<T>(
+    renderer: &mut ProgressiveRenderer,
+    what: impl Fn(&ProgressiveRenderer) -> Option<T>,
+) -> T {
     let start = Instant::now();
     loop {
         assert!(start.elapsed() < PATIENCE, "it did not come");
-        let pause = engine.work();
-        if let Some(there) = what(engine) {
+        let pause = renderer.work();
+        if let Some(there) = what(renderer) {
             return there;
         }
         std::thread::sleep(pause.unwrap_or(Duration::from_millis(1)));
@@ -180,8 +186,8 @@ fn wait_for<T>(engine: &mut Engine, what: impl Fn(&Engine) -> Option<T>) -> T {
 
 #[test]
 fn a_region_is_finished_before_the_rest_begins() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    engine.set_scene(1, description(), PathBuf::new());
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    renderer.set_scene(1, description(), PathBuf::new());
     let shadowed = View {
         transport: Transport {
             shadows: true,
@@ -190,37 +196,37 @@ fn a_region_is_finished_before_the_rest_begins() {
         size_px: [320, 180],
         ..view()
     };
-    engine.set_view(View {
+    renderer.set_view(View {
         region: Some(PART),
         ..shadowed
     });
-    let part = wait_for(&mut engine, |engine| {
-        engine
+    let part = wait_for(&mut renderer, |renderer| {
+        renderer
             .region()
             .filter(|part| part.painted.samples == SHADOW_SAMPLES)
     });
     assert_eq!(part.painted.size_px, PART.size_px);
-    let whole = engine.latest().unwrap();
+    let whole = renderer.latest().unwrap();
     assert!(whole.painted.of_samples.is_none(), "{:?}", whole.painted);
     // The rest follows, and then there is one picture.
-    let whole = last_picture(&mut engine);
+    let whole = last_picture(&mut renderer);
     assert_eq!(whole.painted.samples, SHADOW_SAMPLES);
-    assert!(engine.region().is_none());
-    assert_eq!(engine.work(), None);
+    assert!(renderer.region().is_none());
+    assert_eq!(renderer.work(), None);
 }
 
 #[test]
 fn a_region_shows_what_the_whole_picture_has_there() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(View {
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(View {
         region: Some(WIDE_PART),
         ..wide_view()
     });
-    let part = wait_for(&mut engine, |engine| {
-        engine.region().filter(|part| part.painted.samples > 1)
+    let part = wait_for(&mut renderer, |renderer| {
+        renderer.region().filter(|part| part.painted.samples > 1)
     });
-    let whole = pixels(&last_picture(&mut engine));
+    let whole = pixels(&last_picture(&mut renderer));
     let [x, y] = WIDE_PART.first_px.map(|px| px as usize);
     let [width, height] = WIDE_PART.size_px.map(|px| px as usize);
     let there = (y..y + height).flat_map(|y| whole[y * 640 + x..][..width].to_vec());
@@ -232,45 +238,45 @@ fn a_region_shows_what_the_whole_picture_has_there() {
 
 #[test]
 fn a_region_that_is_drawn_or_given_up_between_two_pictures_ends_in_the_same_picture() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(wide_view());
-    let alone = pixels(&last_picture(&mut engine));
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(wide_view());
+    let alone = pixels(&last_picture(&mut renderer));
     for region in [Some(WIDE_PART), None] {
         let mut moved = wide_view();
         moved.camera.position_m.x += 0.05;
-        engine.set_view(moved);
-        wait_for(&mut engine, |engine| {
-            engine
+        renderer.set_view(moved);
+        wait_for(&mut renderer, |renderer| {
+            renderer
                 .latest()
                 .filter(|frame| frame.view.camera == moved.camera)
         });
-        engine.set_view(View {
+        renderer.set_view(View {
             region: Some(WIDE_PART),
             ..wide_view()
         });
-        wait_for(&mut engine, Engine::region);
-        engine.set_view(View {
+        wait_for(&mut renderer, ProgressiveRenderer::region);
+        renderer.set_view(View {
             region,
             ..wide_view()
         });
-        assert!(pixels(&last_picture(&mut engine)) == alone, "{region:?}");
+        assert!(pixels(&last_picture(&mut renderer)) == alone, "{region:?}");
     }
 }
 
 #[test]
 fn a_pause_leaves_the_first_picture_until_it_ends() {
-    let mut engine = Engine::start_in_turn(Arc::new(|| {}));
-    engine.set_paused(true);
-    engine.set_scene(1, description(), PathBuf::new());
-    engine.set_view(wide_view());
-    let first = wait_for(&mut engine, Engine::latest);
+    let mut renderer = ProgressiveRenderer::start_in_turn(Arc::new(|| {}));
+    renderer.set_paused(true);
+    renderer.set_scene(1, description(), PathBuf::new());
+    renderer.set_view(wide_view());
+    let first = wait_for(&mut renderer, ProgressiveRenderer::latest);
     assert!(!first.painted.is_final);
     for _ in 0..50 {
-        engine.work();
+        renderer.work();
         std::thread::sleep(Duration::from_millis(5));
     }
-    assert_eq!(engine.latest().unwrap().number, first.number);
-    engine.set_paused(false);
-    assert!(last_picture(&mut engine).painted.is_final);
+    assert_eq!(renderer.latest().unwrap().number, first.number);
+    renderer.set_paused(false);
+    assert!(last_picture(&mut renderer).painted.is_final);
 }

@@ -32,7 +32,7 @@ pub(super) fn run(shared: &Shared) {
 /// Builds a scene, and hands it over or reports why there is none.
 pub(super) fn build(shared: &Shared, view_builder: &mut ViewBuilder, wanted: WantedScene) {
     let has_sketch = matches!(shared.backend(), Backend::Cpu)
-        && pool::Crew::Drafter.install(|| sketch(shared, view_builder, &wanted));
+        && pool::Pool::Drafter.install(|| sketch(shared, view_builder, &wanted));
     // With a sketch on the screen, the whole of an outdated scene need not be built; nor where it takes so long that nobody waits for it.
     let start = Instant::now();
     let is_dispensable = || has_sketch || start.elapsed() > LONG;
@@ -44,7 +44,7 @@ pub(super) fn build(shared: &Shared, view_builder: &mut ViewBuilder, wanted: Wan
     if cancelled() {
         return;
     }
-    let built = pool::Crew::Builder.install(|| {
+    let built = pool::Pool::Builder.install(|| {
         view_builder.build(
             &cancelled,
             wanted.revision,

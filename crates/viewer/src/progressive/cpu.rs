@@ -11,13 +11,13 @@ use hairline_render::Task;
 use web_time::Instant;
 
 use super::Backend;
-use super::adding::Adding;
 use super::bands::{BandSize, Bands, IN_TURN};
+use super::done_batches::DoneBatches;
 use super::drafts::Drafts;
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::partial::Backdrop;
-use super::pool::Crew;
+use super::pool::Pool;
 use super::request::Order;
 use super::step_renderer::{RenderedStep, StepRenderer};
 use super::steps::Step;
@@ -30,8 +30,8 @@ const REFRESH: Duration = Duration::from_millis(600);
 pub(super) struct CpuStepRenderer {
     scene: Option<std::sync::Weak<super::Built>>,
     last: Option<Last>,
-    begun: Option<Begun>,
-    adding: Adding,
+    begun: Option<UnfinishedPicture>,
+    done_batches: DoneBatches,
     drafts: Drafts,
     band_size: BandSize,
     /// Interval between pictures of an unfinished one; none are shown where it is none, as they take time of their own.
@@ -50,7 +50,7 @@ struct Last {
 }
 
 /// A picture that is not done yet.
-struct Begun {
+struct UnfinishedPicture {
     order: Order,
     step: Step,
     bands: Bands,
@@ -73,7 +73,7 @@ impl CpuStepRenderer {
             scene: None,
             last: None,
             begun: None,
-            adding: Adding::default(),
+            done_batches: DoneBatches::default(),
             drafts: Drafts::default(),
             band_size,
             refresh: band_size.breaks_off.then_some(REFRESH),
@@ -113,15 +113,15 @@ impl StepRenderer for CpuStepRenderer {
             }
             (None, _) => Bands::new(step.size_px, self.band_size),
         };
-        let crew = if is_coarse {
-            Crew::Sketcher
+        let pool = if is_coarse {
+            Pool::Sketcher
         } else {
-            Crew::Painter
+            Pool::Painter
         };
         let scene = step.scene(order);
         let mut prepared = order.built.parts().prepared(&scene);
         if step.thin > 1 || order.built.sketch.is_some() {
-            let draft = crew.install(|| self.drafts.draft(&order.built, step.thin));
+            let draft = pool.install(|| self.drafts.draft(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
         // What was there before it, shown until the step is done.
@@ -137,7 +137,7 @@ impl StepRenderer for CpuStepRenderer {
             if interrupted() {
                 break false;
             }
-            let go_on = crew.install(|| bands.next(&prepared, &options, interrupted));
+            let go_on = pool.install(|| bands.next(&prepared, &options, interrupted));
             match go_on {
                 Some(true) => break true,
                 Some(false) => {}
@@ -172,7 +172,7 @@ impl StepRenderer for CpuStepRenderer {
             shown_last = Instant::now();
         };
         if !is_done {
-            self.begun = Some(Begun {
+            self.begun = Some(UnfinishedPicture {
                 order: order.clone(),
                 step: *step,
                 bands,
@@ -181,7 +181,7 @@ impl StepRenderer for CpuStepRenderer {
         }
         let (mut image, samples) = match step.batch {
             None => (bands.image, step.samples),
-            Some(batch) => crew.install(|| self.adding.add(order, batch, bands.image)),
+            Some(batch) => pool.install(|| self.done_batches.add(order, batch, bands.image)),
         };
         image.traced = None;
         let last = Last {

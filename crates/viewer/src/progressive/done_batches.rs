@@ -8,9 +8,9 @@ use super::steps::SHADOW_SAMPLES;
 
 /// Batches of one order that are done.
 #[derive(Default)]
-pub(super) struct Adding(Option<(Order, Batches)>);
+pub(super) struct DoneBatches(Option<(Order, Batches)>);
 
-impl Adding {
+impl DoneBatches {
     /// Adds a picture of a batch. Returns the mean of those that there are, filtered, and how many samples it has.
     pub fn add(&mut self, order: &Order, batch: Batch, image: Image) -> (Image, u32) {
         let before = self.0.take();

@@ -1,14 +1,13 @@
-//! Engine that makes pictures of the scene while the interface goes on: nothing here is ever waited for by a widget.
+//! Progressive rendering: pictures of the scene that get finer while the interface goes on: nothing here is ever waited for by a widget.
 //!
 //! Two threads, in the order of the data: `builder` makes a scene of the newest description, with its trees and tables;
 //! `painter` paints the newest scene from the newest view, coarsely while something moves and ever finer while nothing does.
-//! The interface hands in what it wants with [`Engine::set_scene`] and [`Engine::set_view`], which only store it, and takes
-//! what is there with [`Engine::latest`].
+//! The interface hands in what it wants with [`ProgressiveRenderer::set_scene`] and [`ProgressiveRenderer::set_view`], which only store it, and takes
+//! what is there with [`ProgressiveRenderer::latest`].
 //!
-//! Where there are no threads, in a browser, both work in turn with the interface: [`Engine::work`] does a slice. There a GPU's picture is
+//! Where there are no threads, in a browser, both work in turn with the interface: [`ProgressiveRenderer::work`] does a slice. There a GPU's picture is
 //! a task of the page, which the slice begins and nobody waits for.
 
-mod adding;
 mod backend;
 mod bands;
 mod build;
@@ -16,6 +15,7 @@ mod builder;
 #[cfg(not(target_arch = "wasm32"))]
 mod caught;
 mod cpu;
+mod done_batches;
 mod drafts;
 mod event;
 mod frame;
@@ -55,7 +55,7 @@ use in_turn::InTurn;
 use request::Shared;
 
 /// Two threads, or the work by turns that replaces them. Dropping it stops them, at once or after the pixels that they are at.
-pub struct Engine {
+pub struct ProgressiveRenderer {
     shared: Arc<Shared>,
     workers: Workers,
 }
@@ -66,7 +66,7 @@ enum Workers {
     InTurn(Box<InTurn>),
 }
 
-impl Engine {
+impl ProgressiveRenderer {
     /// Starts with nothing to paint.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn start(backend: Backend, wake: Wake) -> Self {
@@ -208,7 +208,7 @@ impl Engine {
     }
 }
 
-impl Drop for Engine {
+impl Drop for ProgressiveRenderer {
     fn drop(&mut self) {
         self.shared.stop();
         match &mut self.workers {

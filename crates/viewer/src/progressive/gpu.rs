@@ -11,7 +11,7 @@ use hairline_image::{Batch, Image, filter_traced};
 use hairline_scene::Transport;
 use web_time::Instant;
 
-use super::adding::Adding;
+use super::done_batches::DoneBatches;
 use super::frame::Picture;
 use super::pace::{self, Coarseness};
 use super::request::Order;
@@ -40,7 +40,7 @@ pub(super) struct GpuStepRenderer {
     canvas: Option<Canvas>,
     /// Step of the canvas.
     step: Option<Step>,
-    adding: Adding,
+    done_batches: DoneBatches,
     /// Mean of the batches that are done, and its number of samples. The canvas holds the last batch.
     mean: Option<(Image, u32)>,
 }
@@ -57,7 +57,7 @@ impl GpuStepRenderer {
             bounces: None,
             canvas: None,
             step: None,
-            adding: Adding::default(),
+            done_batches: DoneBatches::default(),
             mean: None,
         })
     }
@@ -225,7 +225,7 @@ impl StepRenderer for GpuStepRenderer {
             let is_last = part + 1 == steps;
             if is_last && let Some(batch) = step.batch {
                 let image = canvas.image().await?;
-                self.mean = Some(self.adding.add(order, batch, image));
+                self.mean = Some(self.done_batches.add(order, batch, image));
             }
             let samples = match &self.mean {
                 Some((_, samples)) => *samples,

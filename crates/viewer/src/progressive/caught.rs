@@ -1,4 +1,4 @@
-//! A panic in a thread of the engine: told in the window, not a picture that stands still in silence.
+//! A panic in a thread of the renderer: told in the window, not a picture that stands still in silence.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};

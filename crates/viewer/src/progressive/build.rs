@@ -42,7 +42,7 @@ pub struct Built {
 /// Time for which a scene waited, and that of each stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BuildStages {
-    /// Time from the wish to the start, while the scene before it was built.
+    /// Time from the request to the start, while the scene before it was built.
     pub waited: Duration,
     /// Files, meshes, scratches laid.
     pub scene: Duration,

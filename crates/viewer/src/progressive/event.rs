@@ -1,4 +1,4 @@
-//! Events of the engine for the interface.
+//! Events of the renderer for the interface.
 
 use std::sync::Arc;
 

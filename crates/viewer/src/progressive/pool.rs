@@ -9,7 +9,7 @@ use crate::priority;
 /// Users of threads. A pool each: a thread that waits takes up other work of its own pool, and a painter that took up the
 /// building of a scene would show nothing until that is done. What comes from outside waits until all that is in a pool is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Crew {
+pub(super) enum Pool {
     /// Builds scenes.
     Builder,
     /// Builds sketches of scenes, which a hand waits for as for coarse pictures.
@@ -21,7 +21,7 @@ pub(super) enum Crew {
     Painter,
 }
 
-impl Crew {
+impl Pool {
     /// Pool of the user; none where the system starts no threads: then the caller computes.
     fn pool(self) -> Option<&'static ThreadPool> {
         static BUILDER: OnceLock<Option<ThreadPool>> = OnceLock::new();
@@ -61,8 +61,8 @@ impl Crew {
 /// Starts all threads: they have the priority of the one that does.
 #[cfg(not(target_arch = "wasm32"))]
 pub(super) fn start() {
-    for crew in [Crew::Builder, Crew::Drafter, Crew::Sketcher, Crew::Painter] {
-        crew.pool();
+    for pool in [Pool::Builder, Pool::Drafter, Pool::Sketcher, Pool::Painter] {
+        pool.pool();
     }
 }
 
@@ -72,7 +72,7 @@ fn cores() -> usize {
 
 /// Number of threads that paint.
 pub(super) fn threads() -> usize {
-    Crew::Painter
+    Pool::Painter
         .pool()
         .map_or(1, ThreadPool::current_num_threads)
 }
