@@ -53,30 +53,24 @@ impl Prepared<'_> {
         rows: Range<u32>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Option<(Image, Counts)> {
-        let (picture, mut counts) = self.picture(options, rows, cancelled);
-        if cancelled() {
-            return None;
-        }
-        let width = self.scene.render.size_px[0];
-        let mut image = Image::new([width, picture.rows.len() as u32]);
-        counts = counts + picture.render(&mut image, progress, cancelled)?;
-        Some((image, counts))
+        let (image, counts) = self.render_until(cancelled, options, rows, progress);
+        Some((image, counts?))
     }
 
-    /// Renders some rows until `cancelled` says so, and returns the picture with whether it is whole. Tiles that were not done by then are black
-    /// and empty.
+    /// Renders some rows until `cancelled` says so. Tiles that were not done by then are black and empty, and the work is counted only where there are
+    /// none.
     pub fn render_until(
         &self,
         cancelled: &(dyn Fn() -> bool + Sync),
         options: &RenderOptions,
         rows: Range<u32>,
         progress: &(dyn Fn(f64) + Sync),
-    ) -> (Image, bool) {
+    ) -> (Image, Option<Counts>) {
         let mut image = Image::new([self.scene.render.size_px[0], rows.len() as u32]);
-        let (picture, _) = self.picture(options, rows, cancelled);
+        let (picture, counts) = self.picture(options, rows, cancelled);
         // Segments that were cut short would make darker pixels, not fewer.
-        let is_whole = !cancelled() && picture.render(&mut image, progress, cancelled).is_some();
-        (image, is_whole)
+        let tiles = (!cancelled()).then(|| picture.render(&mut image, progress, cancelled));
+        (image, tiles.flatten().map(|tiles| counts + tiles))
     }
 
     /// Renders those pixels of some rows again that have an edge or a crease. `image` has these rows, of one sample a pixel, and becomes what

@@ -49,9 +49,8 @@ impl<'a> Painter<'a> {
     /// # Errors
     /// As [`Self::choose`].
     pub fn take_now(&mut self, scene: &Scene) -> Result<(), Failure> {
-        let gpu = self.gpu().cloned();
-        let parts = sorted(scene, self.task(), gpu.is_none(), &Quiet);
-        Ok(block_on(gpu.as_ref(), self.take(scene, parts))?)
+        let parts = sorted(scene, self.task(), self.gpu().is_none(), &Quiet);
+        Ok(self.wait(async |painter| painter.take(scene, parts).await)?)
     }
 
     /// Renders a scene that may be seen from elsewhere: see [`Self::look_from`] and [`Self::render`].
@@ -59,16 +58,21 @@ impl<'a> Painter<'a> {
     /// # Errors
     /// [`Failure::Work`] where the GPU that was asked for fails, and where it is stopped before the first batch is there.
     pub fn render_now(&mut self, scene: &Scene, go_on: GoOn<'_>) -> Result<Rendered, Failure> {
-        let gpu = self.gpu().cloned();
-        let rendered = block_on(gpu.as_ref(), async {
-            self.look_from(scene).await?;
-            self.render(scene, go_on).await
+        let rendered = self.wait(async |painter| {
+            painter.look_from(scene).await?;
+            painter.render(scene, go_on).await
         });
         rendered?.ok_or_else(|| {
             Failure::Work(anyhow!(
                 "interrupted before the first samples were done; there is nothing to write"
             ))
         })
+    }
+
+    /// Blocks until a work of the painter is done.
+    pub fn wait<T>(&mut self, work: impl AsyncFnOnce(&mut Self) -> T) -> T {
+        let gpu = self.gpu().cloned();
+        block_on(gpu.as_ref(), work(self))
     }
 }
 

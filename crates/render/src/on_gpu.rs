@@ -1,9 +1,6 @@
 //! Rendering on a graphics adapter: the renderer, and the scene that it holds.
 
-use std::ops::Range;
-
-use hairline_gpu::{Error, Gpu, GpuScene, RenderOptions, Renderer};
-use hairline_image::Image;
+use hairline_gpu::{Error, Gpu, GpuScene, Renderer};
 use hairline_scene::Scene;
 
 use crate::parts::Parts;
@@ -11,8 +8,8 @@ use crate::task::Task;
 
 /// A renderer with its shaders compiled and the scene uploaded.
 pub(crate) struct OnGpu {
-    renderer: Renderer,
-    uploaded: GpuScene,
+    pub renderer: Renderer,
+    pub uploaded: GpuScene,
 }
 
 impl OnGpu {
@@ -55,23 +52,5 @@ impl OnGpu {
             renderer.add_shadows(uploaded, scene, bounces).await?;
         }
         Ok(())
-    }
-
-    /// The device.
-    pub(crate) fn gpu(&self) -> &Gpu {
-        self.renderer.gpu()
-    }
-
-    /// Renders some rows of the picture. `scene` has the scratches and materials of the one that was uploaded.
-    pub(crate) async fn render_rows(
-        &mut self,
-        scene: &Scene,
-        options: &RenderOptions,
-        rows: Range<u32>,
-        progress: &dyn Fn(f64),
-    ) -> Result<Image, Error> {
-        let Self { renderer, uploaded } = self;
-        let rendering = renderer.render_rows(scene, uploaded, options, rows, progress);
-        rendering.await
     }
 }

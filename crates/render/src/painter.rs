@@ -66,7 +66,7 @@ impl<'a> Painter<'a> {
 
     /// The GPU that renders, if it is not the CPU.
     pub fn gpu(&self) -> Option<&Gpu> {
-        self.on_gpu.as_ref().map(OnGpu::gpu)
+        self.on_gpu.as_ref().map(|it| it.renderer.gpu())
     }
 
     /// Goes on with another scene and its parts.
@@ -78,7 +78,7 @@ impl<'a> Painter<'a> {
         if let Some(on_gpu) = &mut self.on_gpu
             && let Err(error) = on_gpu.update(scene, &self.parts, &self.task).await
         {
-            give_way(on_gpu.gpu(), error, self.fallback)?;
+            give_way(on_gpu.renderer.gpu(), error, self.fallback)?;
             self.on_gpu = None;
         }
         Ok(())
@@ -171,7 +171,7 @@ impl<'a> Painter<'a> {
     ) -> Result<T, Error> {
         if let Some(on_gpu) = &mut self.on_gpu {
             match work(&mut Rows::Gpu(on_gpu, scene)).await {
-                Err(error) => give_way(on_gpu.gpu(), error, self.fallback)?,
+                Err(error) => give_way(on_gpu.renderer.gpu(), error, self.fallback)?,
                 done => return done,
             }
             self.on_gpu = None;

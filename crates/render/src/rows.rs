@@ -47,7 +47,9 @@ impl Rows<'_> {
                 let progress = |share| {
                     go_on(share);
                 };
-                let rendering = on_gpu.render_rows(scene, &options, piece.rows, &progress);
+                let OnGpu { renderer, uploaded } = on_gpu;
+                let rows = piece.rows;
+                let rendering = renderer.render_rows(scene, uploaded, &options, rows, &progress);
                 return Ok((rendering.await?, true));
             }
         };
@@ -55,6 +57,7 @@ impl Rows<'_> {
         let done_bits = AtomicU64::new(0);
         let is_stopped = || !go_on(f64::from_bits(done_bits.load(Ordering::Relaxed)));
         let progress = |share: f64| done_bits.store(share.to_bits(), Ordering::Relaxed);
-        Ok(prepared.render_until(&is_stopped, options, piece.rows, &progress))
+        let (image, counts) = prepared.render_until(&is_stopped, options, piece.rows, &progress);
+        Ok((image, counts.is_some()))
     }
 }

@@ -32,11 +32,11 @@ pub(super) fn run(mut loaded: Loaded, work: &Work<'_>) -> Result<(), Failure> {
     // All of them, before the first is rendered: what is wrong with the last is told at once. They share what they have in common.
     let scenes = (0..count).map(|i| loaded.with_look(i));
     let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
-    let (mut painter, mut progress) = (None, None);
+    let (mut painter, mut progress) = (None::<Painter<'_>>, None);
     for (i, (scene, output)) in scenes.iter().zip(&outputs).enumerate() {
         let painter = match &mut painter {
             Some(painter) => {
-                Painter::take_now(painter, scene)?;
+                painter.take_now(scene)?;
                 painter
             }
             none => none.insert(work.painter(scene)?),

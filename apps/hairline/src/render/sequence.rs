@@ -5,7 +5,7 @@ use anyhow::anyhow;
 use hairline_console::print;
 use hairline_image::Animation;
 use hairline_render::failure::Failure;
-use hairline_render::{Error, FINE_SAMPLES, Motion, Painter, Sequence, block_on};
+use hairline_render::{Error, FINE_SAMPLES, Motion, Painter, Sequence};
 use hairline_scene::Scene;
 
 use super::goals::Goals;
@@ -100,10 +100,11 @@ impl Frames<'_> {
             Some(_) => 1.0 / f64::from(1 + FINE_SAMPLES),
             None => 1.0,
         };
-        let (gpu, output) = (painter.gpu().cloned(), self.goals.pictures.get(frame));
+        let (sequence, output) = (&mut self.sequence, self.goals.pictures.get(frame));
         let of_frame = |share| done(own * share);
-        let adding = self.sequence.add(painter, scene, output, &of_frame);
-        let image = match block_on(gpu.as_ref(), adding) {
+        let add =
+            async |painter: &mut Painter<'_>| sequence.add(painter, scene, output, &of_frame).await;
+        let image = match painter.wait(add) {
             Ok(Some(image)) => image,
             Ok(None) => return Err(interrupted()),
             Err(Error::Device(_)) if interrupt.is_asked() => return Err(interrupted()),
@@ -117,9 +118,8 @@ impl Frames<'_> {
             let rest = |share| {
                 done(own + (1.0 - own) * share);
             };
-            let gpu = painter.gpu().cloned();
-            let reference = block_on(gpu.as_ref(), painter.render_finely(scene, &rest));
-            let reference = reference.map_err(|error| kept(error.into()))?;
+            let rendered = painter.wait(async |painter| painter.render_finely(scene, &rest).await);
+            let reference = rendered.map_err(|error| kept(error.into()))?;
             let camera = scene.camera.frame(scene.render.size_px);
             steadiness.add(camera, [image, reference]);
         }
