@@ -3,8 +3,8 @@
 //! one ray anyway.
 
 use crate::light_view::LightViews;
+use crate::pixel_base::PixelBase;
 use crate::resolve::{PointLight, Sample};
-use crate::shade_base::PixelBase;
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitBuffers, MetObject, ShadowPoint, Shadows};
 use crate::surface::{SeenHit, SurfacePoint, surface_point};

@@ -21,6 +21,7 @@
 //! ```
 
 mod alpha;
+mod base_layer;
 mod bin;
 mod bounces;
 mod camera_beam;
@@ -33,6 +34,7 @@ mod light_view;
 pub mod method;
 mod options;
 mod picture;
+mod pixel_base;
 mod pixel_parts;
 mod prepared;
 mod project;

@@ -7,9 +7,9 @@ use hairline_index::Hit;
 use hairline_optics::ltc::{LobeFresnel, LtcLobe};
 use hairline_optics::mask::{Mask, Masked};
 
+pub use crate::base_layer::SphereOnLobe;
 pub use crate::gather::gather;
 pub use crate::light_view::{LightView, LightViews};
-pub use crate::shade_base::SphereOnLobe;
 
 /// A method of shading.
 pub trait ShadingMethod: Send + Sync {

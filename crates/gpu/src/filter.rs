@@ -105,23 +105,7 @@ impl FilterPasses {
             pass.run(gpu, (encoder, timing), &resources, size_px);
         };
         for layer in 0..LAYERS {
-            let whole = FilterSettings {
-                size_px,
-                rounds: traced[0].rounds,
-                layer,
-                noise_std: noise_std(traced[0].rounds),
-                off_plane: OFF_PLANE,
-                normal_power: NORMAL_POWER,
-                rough_normals: ROUGH_NORMALS,
-                outline_px: OUTLINE_PX,
-                mirror_step_px: MIRROR_STEP_PX,
-                rough_step_px: ROUGH_STEP_PX,
-                variance_px: VARIANCE_PX,
-                outlier_std: OUTLIER_STD,
-                least_around: LEAST_AROUND,
-                least_alike: LEAST_ALIKE,
-                ..FilterSettings::default()
-            };
+            let whole = settings_of_layer(size_px, traced[0].rounds, layer);
             let in_band = |rows: &std::ops::Range<u32>| FilterSettings {
                 first_row: rows.start,
                 rows: rows.len() as u32,
@@ -155,6 +139,27 @@ impl FilterPasses {
         gpu.queue.write_buffer(&buffers.settings, 0, &bytes);
         self.buffers = Some(buffers);
         Ok(())
+    }
+}
+
+/// Settings over a whole picture.
+fn settings_of_layer(size_px: [u32; 2], rounds: u32, layer: u32) -> FilterSettings {
+    FilterSettings {
+        size_px,
+        rounds,
+        layer,
+        noise_std: noise_std(rounds),
+        off_plane: OFF_PLANE,
+        normal_power: NORMAL_POWER,
+        rough_normals: ROUGH_NORMALS,
+        outline_px: OUTLINE_PX,
+        mirror_step_px: MIRROR_STEP_PX,
+        rough_step_px: ROUGH_STEP_PX,
+        variance_px: VARIANCE_PX,
+        outlier_std: OUTLIER_STD,
+        least_around: LEAST_AROUND,
+        least_alike: LEAST_ALIKE,
+        ..FilterSettings::default()
     }
 }
 

@@ -11,7 +11,8 @@ use hairline_image::Image;
 use hairline_index::ScratchIndex;
 use hairline_scene::{Scene, ScratchTables};
 
-use crate::device::{AdapterRequest, Gpu};
+use crate::adapter::{self, Adapter, AdapterRequest};
+use crate::device::Gpu;
 use crate::error::Error;
 use crate::method::Method;
 use crate::renderer::{RenderOptions, Renderer};
@@ -33,8 +34,8 @@ pub fn open(request: &AdapterRequest) -> Result<Gpu, Error> {
 }
 
 /// Blocks until the adapters are listed.
-pub fn adapters() -> Vec<crate::device::Adapter> {
-    drive(crate::device::adapters(), || {})
+pub fn adapters() -> Vec<Adapter> {
+    drive(adapter::adapters(), || {})
 }
 
 /// Blocks until the picture is there: index, tables, upload, pipelines and all. `progress` is told the share of the

@@ -16,6 +16,7 @@
 
 #![warn(unreachable_pub)]
 
+pub mod adapter;
 mod bin;
 mod bindings;
 mod bounce_buffers;
@@ -26,6 +27,7 @@ mod compute_pass;
 pub mod device;
 mod display;
 pub mod error;
+mod faults;
 mod film;
 mod filter;
 mod frame;
@@ -71,8 +73,9 @@ mod variant;
 mod vertices;
 mod visibility;
 
+pub use adapter::{Adapter, AdapterKind, AdapterRequest, KindRequest};
 pub use canvas::Canvas;
-pub use device::{Adapter, AdapterKind, AdapterRequest, Gpu, KindRequest};
+pub use device::Gpu;
 pub use error::Error;
 pub use method::Method;
 pub use renderer::{RenderOptions, Renderer, steps};

@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use wgpu::BufferUsages;
 
-use crate::device::{AdapterKind, Gpu};
+use crate::adapter::AdapterKind;
+use crate::device::Gpu;
 use crate::error::Error;
 
 /// A pass with the time that all its runs took since [`Renderer::pass_times`](crate::Renderer::pass_times) was called last.

@@ -65,7 +65,7 @@ impl BandImage {
             text("emissiveUnits", "W.m^-2.sr^-1".to_owned()),
             text("hairlineBandsNm", bands.collect::<Vec<_>>().join(" ")),
         ];
-        let encoded = exr_file::encode(self.size_px, channels, attributes);
+        let encoded = exr_file::encode::encode(self.size_px, channels, attributes);
         let bytes = encoded.map_err(|reason| Error::CannotWrite {
             path: path.to_owned(),
             reason,

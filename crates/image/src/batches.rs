@@ -189,9 +189,8 @@ impl Batches {
             image.show_traced();
             return;
         }
-        let Some(noise) = &mut image.noise else {
-            unreachable!("there is more than one batch")
-        };
+        let (size, size_px) = (self.size, image.size_px);
+        let noise = (image.noise).get_or_insert_with(|| noise_of_one(size_px, size));
         for i in 0..batch.base.len() {
             let wide = |rgb: [f32; 3]| rgb.map(f64::from);
             let sum = |a: [f32; 3], b: [f32; 3]| [0, 1, 2].map(|c| a[c] + b[c]);
@@ -206,7 +205,7 @@ impl Batches {
             for (means, variances, added) in layers {
                 add_batch(&mut means[i], &mut variances[i], wide(added[i]), before);
             }
-            noise.samples[i] += self.size;
+            noise.samples[i] += size;
         }
         add_surfaces(image, &batch, before);
     }
@@ -215,12 +214,17 @@ impl Batches {
         if image.traced.is_some() {
             image.show_traced();
         } else if self.samples > self.size {
-            let mut noise = Noise::new(image.size_px, self.size);
-            noise.samples.fill(self.size);
-            image.noise = Some(noise);
+            image.noise = Some(noise_of_one(image.size_px, self.size));
         }
         image
     }
+}
+
+/// Noise of the first batch of so many samples, whose variance nobody knows.
+fn noise_of_one(size_px: [u32; 2], size: u32) -> Noise {
+    let mut noise = Noise::new(size_px, size);
+    noise.samples.fill(size);
+    noise
 }
 
 /// Adds the surfaces of a batch; `before` batches came before.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use exr::prelude::*;
 
-use crate::exr_file::encode;
+use crate::exr_file::encode::encode;
 use crate::{Error, output};
 
 /// What a pixel of a [`Matte`] has at a rank that nothing takes.

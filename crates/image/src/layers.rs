@@ -4,7 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::exr_file::{self, Contents, Notes, Window};
+use crate::exr_file::contents::Contents;
+use crate::exr_file::names::{channel_names, variance_channel_names};
+use crate::exr_file::{Notes, Window};
 use crate::metrics::Estimate;
 use crate::{Display, Error, Image, Layer, Picture, png, tone_map};
 
@@ -150,7 +152,7 @@ impl Layers {
         for layer in Layer::ALL {
             let picture = match layer {
                 Layer::Beauty => file.beauty(),
-                _ => file.find(exr_file::channel_names(layer)),
+                _ => file.find(channel_names(layer)),
             };
             let Some(picture) = picture else { continue };
             let expected = *size_px.get_or_insert(picture.size_px);
@@ -169,7 +171,7 @@ impl Layers {
             }
             held.push(HeldLayer {
                 layer,
-                variance: exr_file::variance_channel_names(layer)
+                variance: variance_channel_names(layer)
                     .and_then(|names| file.find(names))
                     .filter(|variance| variance.size_px == expected)
                     .map(|variance| variance.rgb),

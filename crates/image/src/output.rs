@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::exr_file::{self, Notes};
+use crate::exr_file::Notes;
+use crate::exr_file::encode::{encode_image, encode_picture};
 use crate::{Display, Error, FilePath, Finish, Image, Picture, png};
 
 /// A picture format that can be written.
@@ -111,7 +112,7 @@ impl Output {
     ) -> Result<(), Error> {
         let encoded = match self.format {
             Format::Png => png::encode_image(image, display, &self.finish),
-            Format::Exr => exr_file::encode_image(image, notes),
+            Format::Exr => encode_image(image, notes),
         };
         self.write_encoded(encoded)
     }
@@ -123,7 +124,7 @@ impl Output {
     pub fn write_picture(&self, picture: &Picture, display: &Display) -> Result<(), Error> {
         let encoded = match self.format {
             Format::Png => png::encode(picture, display),
-            Format::Exr => exr_file::encode_picture(picture),
+            Format::Exr => encode_picture(picture),
         };
         self.write_encoded(encoded)
     }

@@ -126,22 +126,11 @@ impl Integrator<'_> {
         let reflectance = &self.reflectances[point.material];
         let coat = self.coats[point.material].as_ref();
         let fresnel = SpectralFresnel::new(&material.base, optics, &point, reflectance, coat);
-        let weights = fresnel.separable(wavelengths);
-
         let (response, taken, specular_kept) = match self.settings.model {
             Model::Separable => {
-                let (kept, taken) = self.mask(object, &point, &views);
-                let sigma_um = point.coherence_um;
-                let lobes = lobes(&views, &self.spectra, wavelengths, &weights, sigma_um);
-                let mut left = DVec3::ONE - taken;
-                // Scratches lie on top.
-                let row = row.map(|row| {
-                    let lobe = Lobe::of_row(&row, wavelengths, &weights, sigma_um);
-                    let under = Box::new((lobe, left));
-                    left *= DVec3::ONE - row.taken(&self.tables);
-                    under
-                });
-                let response = Response::Separable { lobes, kept, row };
+                let weights = fresnel.separable(wavelengths);
+                let (response, left) =
+                    self.separable(object, &point, &views, row, wavelengths, &weights);
                 (response, DVec3::ONE - left, left)
             }
             Model::Full => {
@@ -169,23 +158,54 @@ impl Integrator<'_> {
             random,
             point: &point,
         };
-        let mut light = Light {
-            base: point.emission,
-            scratches: DVec3::ZERO,
+        Light {
             density: taken,
+            ..self.reflected(&vertex, wavelengths)
+        }
+    }
+
+    /// The response of the scratches each by itself, and the share of the base's light that they and a grating leave.
+    fn separable<'s>(
+        &'s self,
+        object: usize,
+        point: &SurfacePoint,
+        views: &[GrooveView],
+        row: Option<RowView<'s>>,
+        wavelengths: &Wavelengths,
+        weights: &Spectrum<DVec3>,
+    ) -> (Response<'s>, DVec3) {
+        let (kept, taken) = self.mask(object, point, views);
+        let sigma_um = point.coherence_um;
+        let lobes = lobes(views, &self.spectra, wavelengths, weights, sigma_um);
+        let mut left = DVec3::ONE - taken;
+        // Scratches lie on top.
+        let row = row.map(|row| {
+            let lobe = Lobe::of_row(&row, wavelengths, weights, sigma_um);
+            let under = Box::new((lobe, left));
+            left *= DVec3::ONE - row.taken(&self.tables);
+            under
+        });
+        (Response::Separable { lobes, kept, row }, left)
+    }
+
+    /// Light that a vertex emits, and light off its lobes.
+    fn reflected(&self, vertex: &Vertex, wavelengths: &Wavelengths) -> Light {
+        let mut light = Light {
+            base: vertex.point.emission,
+            ..Light::default()
         };
-        light.base += self.by_base(&vertex, wavelengths);
+        light.base += self.by_base(vertex, wavelengths);
         match &vertex.response {
             Response::Separable { lobes, kept, row } => {
-                light.scratches += *kept * self.by_grooves(&vertex, lobes, wavelengths);
+                light.scratches += *kept * self.by_grooves(vertex, lobes, wavelengths);
                 if let Some(row) = row {
                     let (lobe, left) = &**row;
                     let lobe = std::slice::from_ref(lobe);
-                    light.scratches += *left * self.by_grooves(&vertex, lobe, wavelengths);
+                    light.scratches += *left * self.by_grooves(vertex, lobe, wavelengths);
                 }
             }
             Response::Full(field) if !field.is_empty() => {
-                let by_field = self.by_field(&vertex, field, wavelengths);
+                let by_field = self.by_field(vertex, field, wavelengths);
                 light.base += by_field.base;
                 light.scratches += by_field.scratches;
             }

@@ -141,6 +141,52 @@ impl GratingSpectrum {
     }
 }
 
+/// The materials of a scene by the numbers of what several of them share.
+struct Numbered {
+    materials: Vec<MaterialOptics>,
+    /// Metals of tables; none is white.
+    metals: Vec<Option<MetalIndex>>,
+    reflectors: Vec<Reflector>,
+}
+
+impl Numbered {
+    /// `shapes` is the number of tables of each metal.
+    fn new(scene: &Scene, shapes: usize) -> Self {
+        let mut all = Self {
+            materials: Vec::new(),
+            metals: Vec::new(),
+            reflectors: Vec::new(),
+        };
+        for material in &scene.materials {
+            // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
+            let metal = match &material.base {
+                Base::Metal(metal) | Base::Covered { metal, .. } if material.coat.is_none() => {
+                    Some(metal.clone())
+                }
+                _ => None,
+            };
+            let table = shapes * number(&mut all.metals, metal);
+            let curve = number(&mut all.reflectors, Reflector::new(material)) as u32;
+            let coat_curve =
+                (material.coat).map(|_| number(&mut all.reflectors, Reflector::COAT) as u32);
+            all.materials.push(MaterialOptics {
+                coat_curve,
+                ..material_optics(material, &scene.observer, table as u32, curve)
+            });
+        }
+        all
+    }
+}
+
+/// Index of a value among those that are there already, or behind them.
+fn number<T: PartialEq>(all: &mut Vec<T>, value: T) -> usize {
+    let known = all.iter().position(|other| *other == value);
+    known.unwrap_or_else(|| {
+        all.push(value);
+        all.len() - 1
+    })
+}
+
 impl ScratchTables {
     /// Tables and coefficients for all materials of a scene.
     pub fn new(scene: &Scene) -> Self {
@@ -149,45 +195,12 @@ impl ScratchTables {
 
     /// As [`Self::new`]; none where `cancelled` says so, which is asked from any thread.
     pub fn unless(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
-        // Colours given in RGB have no spectrum: their scratches use white's table and take the colour at the end.
-        let mut metals: Vec<Option<MetalIndex>> = Vec::new();
-        let mut reflectors: Vec<Reflector> = Vec::new();
         let shapes = GrooveShapes::new(scene);
-        let shape_count = shapes.shapes().len();
-        let materials = scene
-            .materials
-            .iter()
-            .map(|material| {
-                let metal = match &material.base {
-                    Base::Metal(metal) | Base::Covered { metal, .. } if material.coat.is_none() => {
-                        Some(metal.clone())
-                    }
-                    _ => None,
-                };
-                let table = metals.iter().position(|m| *m == metal).unwrap_or_else(|| {
-                    metals.push(metal);
-                    metals.len() - 1
-                });
-                let mut curve_of = |reflector: Reflector| {
-                    let known = reflectors.iter().position(|r| *r == reflector);
-                    let curve = known.unwrap_or_else(|| {
-                        reflectors.push(reflector);
-                        reflectors.len() - 1
-                    });
-                    curve as u32
-                };
-                let curve = curve_of(Reflector::new(material));
-                MaterialOptics {
-                    coat_curve: material.coat.map(|_| curve_of(Reflector::COAT)),
-                    ..material_optics(
-                        material,
-                        &scene.observer,
-                        (table * shape_count) as u32,
-                        curve,
-                    )
-                }
-            })
-            .collect();
+        let Numbered {
+            materials,
+            metals,
+            reflectors,
+        } = Numbered::new(scene, shapes.shapes().len());
         let mut of_shapes = Vec::new();
         for shape in shapes.shapes() {
             if cancelled() {
@@ -196,9 +209,8 @@ impl ScratchTables {
             of_shapes.push(shaped_tables(scene, &metals, &shape));
         }
         let of_metal = |i: usize| of_shapes.iter().map(move |tables| Arc::clone(&tables[i]));
-        let mut tables: Vec<_> = (0..metals.len()).flat_map(of_metal).collect();
         let mut all = Self {
-            tables: Vec::new(),
+            tables: (0..metals.len()).flat_map(of_metal).collect(),
             grating_spectra: Vec::new(),
             efficiencies: Vec::new(),
             of: scene.materials.clone(),
@@ -229,10 +241,10 @@ impl ScratchTables {
                     reflectance(of.metal.as_ref(), nm)
                 }),
             };
-            tables.push(Arc::new(table));
+            all.tables.push(Arc::new(table));
             all.efficiencies.push(efficiencies);
         }
-        Some(Self { tables, ..all })
+        Some(all)
     }
 
     /// The same with [smooth](ScratchTable::smooth) tables of scratches. Those of gratings stay.

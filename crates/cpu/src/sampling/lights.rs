@@ -99,13 +99,7 @@ impl AreaLights {
         Self::with_textures(&scene.lights, &scene.textures)
     }
 
-    /// Any lights without pictures, in this order.
-    #[cfg(test)]
-    fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
-        Self::with_textures(lights, &Arc::default())
-    }
-
-    /// Makes the lights with the textures of their pictures.
+    /// Makes the lights, in this order, with the textures of their pictures.
     ///
     /// # Panics
     /// Panics if a picture is not among them.

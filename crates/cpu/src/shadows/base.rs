@@ -3,10 +3,12 @@
 
 use super::lobes::Lobes;
 use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
+use crate::base_layer::transformed_sphere;
 use crate::light_view::LightViews;
+use crate::pixel_base::PixelBase;
 use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
-use crate::shade_base::{Base, BaseRadiance, PixelBase, transformed_sphere};
+use crate::shade_base::{Base, BaseRadiance};
 use crate::shade_scratches::Choice;
 use crate::surface::ray_start::RayStart;
 use crate::traced::{BaseLight, LayerRays};

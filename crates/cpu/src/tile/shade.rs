@@ -1,11 +1,12 @@
 //! The light of a batch of points: scratches of all at once, then base and gratings point by point.
 
 use super::{Picture, PictureMethod, Tile};
+use crate::base_layer::transformed_sphere;
 use crate::light_view::LightViews;
 use crate::method::PointShader;
+use crate::pixel_base::PixelBase;
 use crate::resolve::{PointLight, Sample};
 use crate::sample_point::{SamplePoint, SampleView, Shared};
-use crate::shade_base::{PixelBase, transformed_sphere};
 use crate::shade_gratings::ShadedGratings;
 use crate::shade_scratches::{Picks, ScratchPoint};
 use crate::shadows::{HitBuffers, Shadows};

@@ -13,10 +13,10 @@
 @compute @workgroup_size(8, 8)
 fn bounce_base_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE {
+    if group >= frame.group_count || !group_has(group, lane) {
         return;
     }
+    let at = group_point(group, lane);
     var ray: BounceRay;
     if points[at].object == 0u {
         rays[at] = ray;

@@ -31,10 +31,11 @@ fn add_light(i: u32, light: vec3f, noise: vec3f) {
 
 @compute @workgroup_size(8, 8)
 fn bounce_light(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let at = group_sample(workgroup.y * workgroups.x + workgroup.x, lane);
-    if at == NO_SAMPLE {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
         return;
     }
+    let at = group_point(group, lane);
     let ray = rays[at];
     var light = vec3f(0.0);
     if ray.distance_m > 0.0 {

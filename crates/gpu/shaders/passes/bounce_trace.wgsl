@@ -10,10 +10,11 @@
 
 @compute @workgroup_size(8, 8)
 fn bounce_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let at = group_sample(workgroup.y * workgroups.x + workgroup.x, lane);
-    if at == NO_SAMPLE {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
         return;
     }
+    let at = group_point(group, lane);
     let distance_m = rays[at].distance_m;
     if !(distance_m > 0.0) {
         return;

@@ -31,8 +31,12 @@ fn pixel_base_radiance(at: u32) -> BaseRadiance {
 
 @compute @workgroup_size(8, 8)
 fn shade_base(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let at = group_sample(workgroup.y * workgroups.x + workgroup.x, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     let light = pixel_base_radiance(at);

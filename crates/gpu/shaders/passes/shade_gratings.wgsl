@@ -29,8 +29,11 @@ fn grating_light(pair: Pair, light_index: u32) -> vec3f {
 @compute @workgroup_size(8, 8)
 fn shade_gratings(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     // Read anew for each grating: they would fill registers while lights are looked at.

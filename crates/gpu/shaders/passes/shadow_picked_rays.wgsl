@@ -52,8 +52,11 @@ fn ray_by(pixel: PixelPoint, triangle: u32, pick: Pick, luminance: f32, seed: u3
 @compute @workgroup_size(8, 8)
 fn shadow_picked_rays(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     // Picks of scratches lie as picks.wgsl says, those of gratings as shade_gratings.wgsl does.

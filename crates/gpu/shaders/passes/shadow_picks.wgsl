@@ -37,8 +37,11 @@ fn sharing(at: u32) -> u32 {
 @compute @workgroup_size(8, 8)
 fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     let first_chunk = chunk_starts[group];
@@ -68,8 +71,11 @@ fn shadow_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups
 @compute @workgroup_size(8, 8)
 fn shadow_grating_picks(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     // Layout of the sums: see sums.wgsl.

@@ -28,8 +28,12 @@ fn add_ray(i: u32, weight: vec3f, is_seen: bool) {
 
 @compute @workgroup_size(8, 8)
 fn shadow_trace(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let at = group_sample(workgroup.y * workgroups.x + workgroup.x, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    let group = workgroup.y * workgroups.x + workgroup.x;
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     var is_seen = true;

@@ -49,8 +49,11 @@ fn finish(i: u32, is_base: bool, open: vec3f, kept: vec3f) {
 @compute @workgroup_size(8, 8)
 fn shadow_traced(@builtin(workgroup_id) workgroup: vec3u, @builtin(num_workgroups) workgroups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE || points[at].object == 0u {
+    if group >= frame.group_count || !group_has(group, lane) {
+        return;
+    }
+    let at = group_point(group, lane);
+    if points[at].object == 0u {
         return;
     }
     var taken = vec3f(0.0);

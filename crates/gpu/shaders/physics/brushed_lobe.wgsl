@@ -14,7 +14,6 @@ const BRUSHED_RULE = array<vec2f, 8>(
     vec2f(0.956940336, 0.058336464),
     vec2f(0.995184727, 0.016802755),
 );
-const BRUSHED_NODES_AROUND: u32 = 8u;
 const BRUSHED_RULE_AROUND = array<vec2f, 4>(
     vec2f(0.195090322, 0.385876602),
     vec2f(0.555570233, 0.324152519),

@@ -43,15 +43,6 @@ fn group_has(group: u32, i: u32) -> bool {
     return frame.step > 0u || (pixel.x < frame.size_px.x && pixel.y < frame.rows.y);
 }
 
-// Index of the surface point of a lane of a group; or none.
-const NO_SAMPLE: u32 = 0xffffffffu;
-fn group_sample(group: u32, lane: u32) -> u32 {
-    if group >= frame.group_count || !group_has(group, lane) {
-        return NO_SAMPLE;
-    }
-    return group_point(group, lane);
-}
-
 // The tile of the strip that a pixel is in, and its place there.
 fn pixel_tile(pixel: vec2u) -> vec2u {
     let in_strip = pixel - vec2u(0u, frame.rows.x);

@@ -157,18 +157,7 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
             (a, &opaque_b)
         }
     };
-    for (side, image, other) in [(Side::A, a, b), (Side::B, b, a)] {
-        let missing: Vec<Layer> = Layer::ALL
-            .into_iter()
-            .filter(|&layer| image.get(layer).is_none() && other.get(layer).is_some())
-            .collect();
-        if !missing.is_empty() {
-            problems.push(Problem::MissingLayers {
-                side,
-                layers: missing,
-            });
-        }
-    }
+    problems.extend(missing_layers(a, b));
     let (shown_a, shown_b);
     let (a, b, display) = match (a.referred, b.referred) {
         (Referred::Scene, Referred::Scene) => (a, b, *display),
@@ -194,18 +183,17 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
         .into_iter()
         .filter_map(|layer| Some((layer, a.estimate(layer)?, b.estimate(layer)?)))
         .collect();
-    for (layer, of_a, of_b) in &both {
-        for (side, estimate) in [(Side::A, of_a), (Side::B, of_b)] {
-            let values = not_finite(estimate, mask);
-            if values > 0 {
-                problems.push(Problem::NotFinite {
-                    side,
-                    layer: *layer,
-                    values,
-                });
-            }
-        }
-    }
+    let each = both
+        .iter()
+        .flat_map(|(layer, of_a, of_b)| [(Side::A, *layer, of_a), (Side::B, *layer, of_b)]);
+    problems.extend(each.filter_map(|(side, layer, estimate)| {
+        let values = not_finite(estimate, mask);
+        (values > 0).then_some(Problem::NotFinite {
+            side,
+            layer,
+            values,
+        })
+    }));
     let layers: Vec<LayerComparison> = both
         .par_iter()
         .map(|(layer, of_a, of_b)| compare_layer(a.size_px, *layer, of_a, of_b, &display, mask))
@@ -214,6 +202,16 @@ pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>)
         problems.push(Problem::NothingInCommon);
     }
     Comparison { layers, problems }
+}
+
+/// Layers that only one of the pictures has.
+fn missing_layers<'l>(a: &'l Layers, b: &'l Layers) -> impl Iterator<Item = Problem> {
+    let sides = [(Side::A, a, b), (Side::B, b, a)].into_iter();
+    sides.filter_map(|(side, image, other)| {
+        let is_missing = |layer: &Layer| image.get(*layer).is_none() && other.get(*layer).is_some();
+        let layers: Vec<Layer> = Layer::ALL.into_iter().filter(is_missing).collect();
+        (!layers.is_empty()).then_some(Problem::MissingLayers { side, layers })
+    })
 }
 
 /// The picture that has no alpha where the other one has: it is opaque.

@@ -9,10 +9,10 @@ fn shade_published(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let group = workgroup.y * workgroups.x + workgroup.x;
-    let at = group_sample(group, lane);
-    if at == NO_SAMPLE {
+    if group >= frame.group_count || !group_has(group, lane) {
         return;
     }
+    let at = group_point(group, lane);
     let object = points[at].object;
     if object == 0u {
         return;

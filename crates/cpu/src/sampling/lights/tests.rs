@@ -1,10 +1,17 @@
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use hairline_scene::{Light, LightShape};
 
 use super::AreaLights;
 use hairline_fixtures::statistics::{Draw, chi_square_of_two, jittered};
+
+impl AreaLights {
+    fn from_lights<'l>(lights: impl IntoIterator<Item = &'l Light>) -> Self {
+        Self::with_textures(lights, &Arc::default())
+    }
+}
 
 fn sphere(center_m: [f64; 3], radius_m: f64) -> Light {
     Light::sphere(center_m.into(), radius_m, [1.0, 2.0, 3.0])
