@@ -81,11 +81,15 @@ impl Gratings {
                 let alone = as_scratches(&row);
                 let _ = write!(text, "| {pitch_um} | {jitter} |");
                 for light in LIGHTS {
-                    let [error, noise] = off(&by_table, &blocks, light);
+                    let [error, noise] = relative_rms(&by_table, &blocks, light);
                     let _ = write!(text, " {:.1} ± {:.1} |", 100.0 * error, 100.0 * noise);
                 }
                 for light in LIGHTS {
-                    let _ = write!(text, " {:.0} |", 100.0 * off(&alone, &blocks, light)[0]);
+                    let _ = write!(
+                        text,
+                        " {:.0} |",
+                        100.0 * relative_rms(&alone, &blocks, light)[0]
+                    );
                 }
                 text.push('\n');
                 println!(
@@ -104,7 +108,7 @@ impl Gratings {
                 jitter_um: 0.0,
             };
             let blocks = blocks(&row, independent_places_um, self.rows);
-            let found = LIGHTS.map(|light| off(&as_scratches(&row), &blocks, light));
+            let found = LIGHTS.map(|light| relative_rms(&as_scratches(&row), &blocks, light));
             let _ = write!(text, "| {pitch_um} |");
             for [error, noise] in found {
                 let _ = write!(text, " {:.1} ± {:.1} |", 100.0 * error, 100.0 * noise);
@@ -231,7 +235,7 @@ fn normal(random: &mut Pcg64) -> f64 {
 }
 
 /// Relative rms over lights of a radius at all places and over channels, without the noise of the rows; and that noise.
-fn off(found: &SentLight, blocks: &[SentLight], light: f64) -> [f64; 2] {
+fn relative_rms(found: &SentLight, blocks: &[SentLight], light: f64) -> [f64; 2] {
     let width = ((2.0 * light / Q_STEP).round() as usize).min(Q_COUNT);
     let count = blocks.len() as f64;
     let [mut errors, mut noise, mut values] = [0.0; 3];
@@ -295,7 +299,7 @@ mod tests {
         let blocks = blocks(&row, row_places_um, 32);
         let table = row.table(COHERENCE_UM, |_| 1.0);
         let by_table = sent(|q| table_value(&table, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
-        let [error, _] = off(&by_table, &blocks, 0.01);
+        let [error, _] = relative_rms(&by_table, &blocks, 0.01);
         assert!(error < 0.03, "{error}");
         let deeper = Grating {
             depth_nm: 1.1 * DEPTH_NM,
@@ -303,6 +307,6 @@ mod tests {
         }
         .table(COHERENCE_UM, |_| 1.0);
         let wrong = sent(|q| table_value(&deeper, GRATING_WIDTH_UM * q, GRATING_DEPTH_NM));
-        assert!(off(&wrong, &blocks, 0.01)[0] > 0.05);
+        assert!(relative_rms(&wrong, &blocks, 0.01)[0] > 0.05);
     }
 }

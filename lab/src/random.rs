@@ -54,10 +54,10 @@ impl Random {
                 continue;
             };
             judged += 1;
-            off += usize::from(layers.iter().any(|layer| layer.off() > 1.0));
+            off += usize::from(layers.iter().any(|layer| layer.severity() > 1.0));
             all.extend(layers.into_iter().map(|layer| (seed, layer)));
         }
-        all.sort_by(|a, b| b.1.off().total_cmp(&a.1.off()));
+        all.sort_by(|a, b| b.1.severity().total_cmp(&a.1.severity()));
         println!(
             "{off} of {judged} are off by more than 5 % in the mean or 10 % rms beyond noise. The worst:\n"
         );

@@ -9,7 +9,8 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, anyhow, bail};
 use conformance::unbiased::{
-    LAYERS, LayerError, SCENES, brighter, expected, inside, layer_error, rendered, scene, without,
+    LAYERS, LayerError, SCENES, brighter, expected, interior_mask, layer_error, rendered, scene,
+    without_objects,
 };
 use hairline_image::metrics::Verdict;
 use hairline_image::output::write_atomically;
@@ -165,11 +166,15 @@ impl Unbiased {
             .iter()
             .map(|&n| Ok((n, picture(&right, n, shadows)?)))
             .collect::<Result<Vec<_>>>()?;
-        let inside = inside(&right);
+        let inside = interior_mask(&right);
         let bright = picture(&brighter(name, BRIGHTER), wrong_samples, shadows)?;
         let bare = match occluders {
             [] => None,
-            _ => Some(picture(&without(right, occluders), wrong_samples, shadows)?),
+            _ => Some(picture(
+                &without_objects(right, occluders),
+                wrong_samples,
+                shadows,
+            )?),
         };
         let layers = LAYERS.map(|layer| {
             let of = |image| layer_error(image, &expected, &open, layer, &inside);

@@ -262,7 +262,7 @@ pub struct LayerDifference {
 
 impl LayerDifference {
     /// How far it is off: 1 where the mean is off by 5 % or the rms by 10 %, beyond two standard errors.
-    pub fn off(&self) -> f64 {
+    pub fn severity(&self) -> f64 {
         let mean = ((self.mean[0] - 1.0).abs() - 2.0 * self.mean[1]).max(0.0) / 0.05;
         let rms = (self.rms[0] - self.rms[1]).max(0.0) / 0.1;
         mean.max(rms)

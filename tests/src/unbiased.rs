@@ -52,7 +52,7 @@ pub fn brighter(name: &str, part: f64) -> Scene {
 }
 
 /// Removes some objects from a scene.
-pub fn without(mut scene: Scene, objects: &[&str]) -> Scene {
+pub fn without_objects(mut scene: Scene, objects: &[&str]) -> Scene {
     scene
         .objects
         .retain(|object| !objects.contains(&object.name.as_str()));
@@ -203,7 +203,7 @@ pub struct LayerError {
 
 /// Mask of pixels that show one object alone, as far as a pixel's filter reaches. On an outline the path tracer averages over the filter, and
 /// the renderers over the pixel: both objects are right there, but not their parts of the pixel.
-pub fn inside(scene: &Scene) -> Vec<bool> {
+pub fn interior_mask(scene: &Scene) -> Vec<bool> {
     let size_px = scene.render.size_px;
     let triangles = TriangleIndex::build(scene);
     let camera = scene.camera.frame(size_px);
@@ -225,7 +225,7 @@ pub fn inside(scene: &Scene) -> Vec<bool> {
 /// Reach of a pixel's filter in pixels, five standard deviations.
 const FILTER_REACH_PX: i32 = 3;
 
-/// Compares a layer of a picture of several batches with that of [`expected`], where the picture is [`inside`]; `open` is that without shadows.
+/// Compares a layer of a picture of several batches with that of [`expected`], where the picture is [`interior_mask`]; `open` is that without shadows.
 ///
 /// # Panics
 /// Where none of the two knows its noise.

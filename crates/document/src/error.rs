@@ -71,7 +71,7 @@ impl Error {
 
     /// An error whose key belongs to a table.
     #[must_use]
-    pub(crate) fn below(mut self, table: &str) -> Self {
+    pub(crate) fn in_table(mut self, table: &str) -> Self {
         self.key = format!("{table}.{}", self.key);
         self
     }

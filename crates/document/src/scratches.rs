@@ -229,12 +229,12 @@ impl<'a> Plan<'a> {
                     Amount::Count(count) => count,
                     Amount::DensityPerM2(density) => (density * ground.area_m2()).round() as u64,
                 };
-                let strewn = Scattered {
+                let scattered = Scattered {
                     laid,
                     number: table.number,
                     ground,
                 };
-                (Box::new(strewn), count)
+                (Box::new(scattered), count)
             }
             Layer::Brushed(brushed) => {
                 let painted = Painted::new(brushed, table.number, table.strokes, ground);

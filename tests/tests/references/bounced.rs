@@ -260,7 +260,7 @@ fn without_objects_bounces_change_nothing() {
 #[test]
 fn a_floor_in_a_mirror_has_little_noise() {
     let scene = SceneFile::seen_from([0.0, -0.09, 0.05])
-        .toward([0.0, 0.0, 0.012])
+        .looking_at([0.0, 0.0, 0.012])
         .fov_y_deg(18.0)
         .size_px([64, 48])
         .metal("silver", "silver")

@@ -455,7 +455,7 @@ fn check_crops(crops: &[(&str, [f64; 2], f64)]) {
 #[test]
 fn a_ball() {
     let scene = scratched_ball(0.04)
-        .toward([0.012, -0.034, 0.034])
+        .looking_at([0.012, -0.034, 0.034])
         .fov_y_deg(0.15)
         .size_px([16, 16])
         .scene();

@@ -96,7 +96,7 @@ fn by_each(scene: &Scene, samples: u32) -> Vec<(&'static str, Image, Image)> {
 /// A camera and a scratched plate under a can of 3,584 triangles without thickness; lamps shine from outside.
 fn under_a_can(target_m: [f64; 3], fov_y_deg: f64) -> Scene {
     SceneFile::seen_from([0.02, -0.03, 0.025])
-        .toward(target_m)
+        .looking_at(target_m)
         .fov_y_deg(fov_y_deg)
         .size_px([24, 16])
         .metal("steel", "steel")
@@ -161,7 +161,7 @@ fn a_shadow_begins_at_the_foot() {
     };
     for (foot_m, from_m, is_dark) in [(-0.005, -0.1, true), (0.005, 0.1, false)] {
         let scene = SceneFile::seen_from([from_m, -0.01, 0.1])
-            .toward([foot_m, 0.0, 0.0])
+            .looking_at([foot_m, 0.0, 0.0])
             .fov_y_deg(0.13)
             .size_px([16, 16])
             .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
@@ -198,7 +198,7 @@ fn a_shadow_begins_at_the_foot() {
 #[test]
 fn no_light_comes_from_beyond_a_wall() {
     let scene = SceneFile::seen_from([-0.1, -0.01, 0.1])
-        .toward([-0.00503, 0.0, 0.0])
+        .looking_at([-0.00503, 0.0, 0.0])
         .fov_y_deg(0.13)
         .size_px([16, 16])
         .part("[[material]]\nname = \"matt\"\nkind = \"dielectric\"\nior = 1.0")
@@ -277,7 +277,7 @@ fn balls_do_not_shade_themselves() {
 #[test]
 fn a_scratched_ball_hides_nothing_from_itself() {
     let scene = scratched_ball(0.04)
-        .toward([0.012, -0.034, 0.034])
+        .looking_at([0.012, -0.034, 0.034])
         .fov_y_deg(0.15)
         .size_px([16, 16])
         .scene();

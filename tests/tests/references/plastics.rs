@@ -65,7 +65,7 @@ fn ggx(wi: DVec3, wo: DVec3, alpha: f64) -> f64 {
 }
 
 /// Directions above a surface, spread evenly over `steps` squared parts of the half space.
-fn above(steps: usize) -> impl Iterator<Item = DVec3> {
+fn hemisphere_directions(steps: usize) -> impl Iterator<Item = DVec3> {
     (0..steps * steps).map(move |i| {
         let [z, turn] = [i % steps, i / steps].map(|k| (k as f64 + 0.5) / steps as f64);
         let (sin, cos) = (2.0 * PI * turn).sin_cos();
@@ -99,7 +99,7 @@ fn by_quadrature(plastic: &Plastic, rises: impl Fn(f64) -> f64, scene: &Scene, w
     }
     // The share that the facets leave to the body: light of radiance 1 from all around.
     let mut reflected = 0.0;
-    for wi in above(STEPS) {
+    for wi in hemisphere_directions(STEPS) {
         let [below, _] = plastic.facet(rises(wi.dot((wi + wo).normalize())));
         reflected += 2.0 * PI / (STEPS * STEPS) as f64 * ggx(wi, wo, alpha) * below;
     }
@@ -183,7 +183,7 @@ fn by_room(roughness: f64, facet: impl Fn(f64) -> f64, wo: DVec3) -> f64 {
     const STEPS: usize = 400;
     let solid = 2.0 * PI / (STEPS * STEPS) as f64;
     let (mut all, mut single) = (0.0, 0.0);
-    for wi in above(STEPS) {
+    for wi in hemisphere_directions(STEPS) {
         let lobe = solid * ggx(wi, wo, roughness * roughness);
         all += lobe;
         single += lobe * facet(wi.dot((wi + wo).normalize())) * room(wi, wo);

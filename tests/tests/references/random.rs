@@ -20,7 +20,7 @@ fn random_scenes_are_right() {
         let found = closed_form::render(&scene, &RenderOptions::default(), &|_| {});
         let layers = judge(&Layers::from(&found), &Layers::from(&right));
         println!("{seed}: {layers:?}");
-        layers.iter().any(|layer| layer.off() > 1.0)
+        layers.iter().any(|layer| layer.severity() > 1.0)
     };
     let off: Vec<u64> = seeds.into_iter().filter(is_off).collect();
     assert!(off.is_empty(), "{off:?}");

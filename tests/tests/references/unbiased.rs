@@ -2,7 +2,8 @@
 //! wrong light or a missing object makes.
 
 use conformance::unbiased::{
-    LAYERS, SCENES, brighter, expected, inside, layer_error, rendered, scene, without,
+    LAYERS, SCENES, brighter, expected, interior_mask, layer_error, rendered, scene,
+    without_objects,
 };
 use hairline_image::Image;
 use hairline_image::metrics::Verdict;
@@ -46,8 +47,12 @@ fn check(numbers: &[u32], reference: u32) {
             .iter()
             .find(|(n, _)| *n == name)
             .map_or(&[][..], |it| it.1);
-        let bare = picture(&without(right.clone(), occluders), numbers[0], shadows);
-        let inside = inside(&right);
+        let bare = picture(
+            &without_objects(right.clone(), occluders),
+            numbers[0],
+            shadows,
+        );
+        let inside = interior_mask(&right);
         for layer in LAYERS {
             let of = |image| layer_error(image, &expected, &open, layer, &inside);
             for (samples, image) in numbers.iter().zip(&images) {

@@ -18,7 +18,7 @@ fn monkey() -> SceneFile {
         [-0.2, 0.15, 0.25],
     ];
     SceneFile::seen_from([0.05, 0.03, 0.30])
-        .toward([0.0, -0.002, 0.0])
+        .looking_at([0.0, -0.002, 0.0])
         .up([0.0, 1.0, 0.0])
         .fov_y_deg(24.0)
         .size_px([900, 900])

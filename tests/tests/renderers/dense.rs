@@ -120,7 +120,7 @@ fn a_segment_across_the_picture() {
 #[test]
 fn a_camera_inside_the_object() {
     let scene = SceneFile::seen_from([0.0, 0.0, 0.01])
-        .toward([0.03, 0.01, 0.0])
+        .looking_at([0.03, 0.01, 0.0])
         .fov_y_deg(60.0)
         .size_px([64, 40])
         .metal("steel", "iron")

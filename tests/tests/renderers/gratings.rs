@@ -278,7 +278,7 @@ fn gpu_and_cpu_show_the_same_gratings() {
 /// second one.
 pub(super) fn grooves_one_by_one(name: &str, gratings: &[String]) {
     let mut file = SceneFile::seen_from([0.06, 0.01, 0.02])
-        .toward([0.06, 0.03, 0.0])
+        .looking_at([0.06, 0.03, 0.0])
         .size_px([96, 72])
         .fov_y_deg(1.0)
         .metal("aluminium", "aluminium")
@@ -340,7 +340,7 @@ fn gpu_and_cpu_show_the_same_single_grooves() {
 /// A disc of circular grooves under a lamp, a tube and a studio, seen from 0.3 m.
 fn disc(pitch_um: f64, side_px: u32) -> Scene {
     SceneFile::seen_from([0.03, -0.16, 0.24])
-        .toward([0.03, 0.02, 0.0])
+        .looking_at([0.03, 0.02, 0.0])
         .size_px([side_px, side_px])
         .metal("m", "aluminium")
         .object("disc", "m", "disk = { radius_m = 0.06 }")

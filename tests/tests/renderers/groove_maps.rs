@@ -192,7 +192,7 @@ fn plate(change: impl Fn(&mut Scene)) -> Image {
 }
 
 /// Relative to the second.
-fn off(a: &Image, b: &Image) -> f64 {
+fn relative_error(a: &Image, b: &Image) -> f64 {
     let both = a
         .scratches
         .iter()
@@ -224,12 +224,12 @@ fn texture_coordinates_of_a_plate_are_its_directions() {
         })
     };
     let plain = |along_v| plate(|scene| scene.objects[0].gratings[0].field = by_uv(along_v, None));
-    assert!(off(&plain(false), &along(1.0, 0.0)) < 1e-6);
-    assert!(off(&plain(true), &along(0.0, 1.0)) < 1e-6);
+    assert!(relative_error(&plain(false), &along(1.0, 0.0)) < 1e-6);
+    assert!(relative_error(&plain(true), &along(0.0, 1.0)) < 1e-6);
     // Codes 255 and 0 are 1 and -1: to the right and down.
-    assert!(off(&uv(false, [1.0, 0.0]), &along(1.0, -1.0)) < 1e-6);
-    assert!(off(&uv(true, [1.0, 0.0]), &along(1.0, 1.0)) < 1e-6);
-    assert!(off(&uv(true, [1.0, 0.0]), &along(1.0, -1.0)) > 0.5);
+    assert!(relative_error(&uv(false, [1.0, 0.0]), &along(1.0, -1.0)) < 1e-6);
+    assert!(relative_error(&uv(true, [1.0, 0.0]), &along(1.0, 1.0)) < 1e-6);
+    assert!(relative_error(&uv(true, [1.0, 0.0]), &along(1.0, -1.0)) > 0.5);
 }
 
 /// Squares of a fiftieth of a pixel.
@@ -249,6 +249,10 @@ fn a_mask_from_afar_is_its_mean() {
         scene.objects[0].gratings[0].mask = mask(lie);
     });
     let half = plate(|scene| scene.objects[0].gratings[0].coverage = 0.5);
-    assert!(off(&masked, &half) < 0.01, "{}", off(&masked, &half));
-    assert!(off(&plate(|_| {}), &half) > 0.5);
+    assert!(
+        relative_error(&masked, &half) < 0.01,
+        "{}",
+        relative_error(&masked, &half)
+    );
+    assert!(relative_error(&plate(|_| {}), &half) > 0.5);
 }

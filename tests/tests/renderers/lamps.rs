@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 fn lamps(visible: bool) -> Scene {
     let light = |keys: &str| format!("[[light]]\nvisible = {visible}\n{keys}");
     SceneFile::seen_from([0.0, -0.6, 0.12])
-        .toward([0.0, 0.0, 0.06])
+        .looking_at([0.0, 0.0, 0.06])
         .fov_y_deg(30.0)
         .size_px([192, 108])
         .metal("steel", "steel")

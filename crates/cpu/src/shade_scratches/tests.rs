@@ -21,7 +21,7 @@ use rand_pcg::Pcg64Mcg;
 fn dish() -> Scene {
     let profile = "[[0.0, 0.0], [0.04, 0.0], [0.05, 0.004], [0.066, 0.006]]";
     SceneFile::seen_from([0.0, -0.20, 0.17])
-        .toward([0.045, 0.0, 0.003])
+        .looking_at([0.045, 0.0, 0.003])
         .fov_y_deg(9.0)
         .size_px([48, 32])
         .metal("m", "steel")

@@ -80,7 +80,7 @@ impl Look {
             _ => false,
         };
         match is_own {
-            true => error.below(&format!("look[{index}]")),
+            true => error.in_table(&format!("look[{index}]")),
             false => error,
         }
     }

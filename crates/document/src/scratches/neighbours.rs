@@ -30,7 +30,7 @@ impl Neighbours {
     }
 
     /// The triangle beyond an edge and its own number for the edge; `None` at a boundary and at a crease.
-    pub(super) fn beyond(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
+    pub(super) fn across_edge(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
         match self.0[triangle as usize][edge] {
             NONE => None,
             other => Some((other / 4, other as usize % 4)),
@@ -194,7 +194,7 @@ mod tests {
         let neighbours = Neighbours::new(&sheet);
         for triangle in 0..4u32 {
             for edge in 0..3 {
-                if let Some((other, _)) = neighbours.beyond(triangle, edge) {
+                if let Some((other, _)) = neighbours.across_edge(triangle, edge) {
                     assert_eq!(triangle / 2, other / 2);
                 }
             }

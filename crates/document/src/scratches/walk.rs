@@ -137,14 +137,14 @@ impl<'a> Walker<'a> {
     /// Adds the way on the surface to a near place to the last run of pieces. Where no way leads over an edge between them, that run ends
     /// there, and a new one begins on its other side.
     pub(super) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
-        let (ahead, arrives) = self.towards(from, to);
+        let (ahead, arrives) = self.path_to(from, to);
         let run = runs.last_mut();
         match run {
             Some(run) => join(run, ahead),
             None => runs.push(ahead),
         }
         if !arrives {
-            let (back, _) = self.towards(to, from);
+            let (back, _) = self.path_to(to, from);
             runs.push(
                 back.into_iter()
                     .rev()
@@ -154,8 +154,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The way to a near place, and whether it arrives.
-    fn towards(&self, from: MeshPoint, to: MeshPoint) -> (Vec<StraightPiece>, bool) {
+    /// The path to a near place, and whether it arrives.
+    fn path_to(&self, from: MeshPoint, to: MeshPoint) -> (Vec<StraightPiece>, bool) {
         for triangle in [from.triangle, to.triangle] {
             let facet = Facet::new(self.mesh, triangle);
             let is_in = |place: MeshPoint| facet.distance_m(place.point_m) < ON_EDGE_M;
@@ -235,7 +235,8 @@ impl<'a> Walker<'a> {
                 entry = None;
                 continue;
             };
-            let Some((triangle, next_edge)) = self.neighbours.beyond(spot.triangle, edge) else {
+            let Some((triangle, next_edge)) = self.neighbours.across_edge(spot.triangle, edge)
+            else {
                 break;
             };
             let next = Facet::new(self.mesh, triangle);

@@ -35,7 +35,7 @@ fn brushed() -> Layer {
     })
 }
 
-fn strewn(count: u64, seed: u64) -> Layer {
+fn scattered(count: u64, seed: u64) -> Layer {
     let Layer::Brushed(Brushed {
         length_m,
         width_um,
@@ -250,10 +250,10 @@ fn erasing_takes_exactly_what_is_within_the_brush() {
         let z = if name == "disk" { 0.0 } else { 0.048 };
         let line = [[-0.02, -0.01, z], [0.0, 0.01, z], [0.02, 0.0, z]];
         let radius_m = 0.006;
-        let whole = built(shape, vec![layer(strewn(3000, 1), vec![])]);
+        let whole = built(shape, vec![layer(scattered(3000, 1), vec![])]);
         let cut = built(
             shape,
-            vec![layer(strewn(3000, 1), vec![erase(&line, radius_m)])],
+            vec![layer(scattered(3000, 1), vec![erase(&line, radius_m)])],
         );
         // A micrometre is what single precision and left-out slivers need.
         let tolerance_m = 1e-6;
@@ -299,7 +299,7 @@ fn erasing_takes_exactly_what_is_within_the_brush() {
 
 #[test]
 fn a_ring_that_is_cut_is_open_and_in_one_piece() {
-    let Layer::Laid(mut laid) = strewn(40, 1) else {
+    let Layer::Laid(mut laid) = scattered(40, 1) else {
         unreachable!()
     };
     laid.pattern = Pattern::Circular(PatternAxis::default());
@@ -387,7 +387,7 @@ fn of_layer(object: &Object, layer: u32) -> Vec<(f32, Vec<Segment>)> {
 
 #[test]
 fn layers_do_not_depend_on_their_place() {
-    let of = |seed| layer(strewn(30, seed), vec![]);
+    let of = |seed| layer(scattered(30, seed), vec![]);
     let [a, b, c] = [of(1), of(2), of(3)];
     let abc = built(DISK, vec![a.clone(), b.clone(), c.clone()]);
     let cb = built(DISK, vec![c.clone(), b.clone()]);

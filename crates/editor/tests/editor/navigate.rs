@@ -221,7 +221,7 @@ fn a_point_is_centred() {
 #[test]
 fn surroundings_turn_as_the_camera_does() {
     let mut scene = hairline_fixtures::SceneFile::seen_from([0.1, -0.4, 0.3])
-        .toward([0.1, 0.0, 0.02])
+        .looking_at([0.1, 0.0, 0.02])
         .metal("steel", "steel")
         .object("disk", "steel", hairline_fixtures::DISK)
         .sphere([0.3, 0.2, 0.5], 0.02, 30.0)

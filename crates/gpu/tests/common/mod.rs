@@ -14,7 +14,7 @@ use hairline_scene::{Scene, ScratchTables};
 /// The rim of a plate with scratches on a table, under a lamp and a tube; so near that no pixel sees many scratches.
 pub fn plates() -> SceneFile {
     SceneFile::seen_from([0.0, -0.22, 0.30])
-        .toward([0.0, -0.075, 0.0])
+        .looking_at([0.0, -0.075, 0.0])
         .fov_y_deg(6.0)
         .size_px([97, 64])
         .metal("steel", "steel")

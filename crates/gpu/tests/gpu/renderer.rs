@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// A tilted mirror.
 fn plate() -> SceneFile {
     SceneFile::seen_from([0.05, -0.22, 0.30])
-        .toward([0.01, 0.0, 0.0])
+        .looking_at([0.01, 0.0, 0.0])
         .fov_y_deg(28.0)
         .size_px([97, 64])
         .mirror("steel")

@@ -94,7 +94,7 @@ impl Lens {
     }
 
     /// Direction on the screen from the middle to a point, even if the point lies behind the pinhole.
-    pub fn towards(&self, point_m: DVec3) -> egui::Vec2 {
+    pub fn screen_direction(&self, point_m: DVec3) -> egui::Vec2 {
         let from_eye = point_m - self.eye_m();
         let right = from_eye.dot(self.frame.per_px_x);
         let down = from_eye.dot(self.frame.per_px_y);

@@ -30,7 +30,7 @@ pub const SMALL: &str = include_str!("small_scene.toml");
 /// The disk of the small scene under one lamp: a software driver compiles shaders for seconds, for less the less a scene has.
 pub fn bare_disk() -> SceneFile {
     SceneFile::seen_from([0.0, -0.5, 0.3])
-        .toward([0.0, 0.0, 0.03])
+        .looking_at([0.0, 0.0, 0.03])
         .fov_y_deg(30.0)
         .metal("steel", "steel")
         .with_lines("roughness = 0.1")

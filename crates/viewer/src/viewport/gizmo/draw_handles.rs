@@ -107,7 +107,7 @@ fn boxed(painter: &Painter, at: Pos2, align: Align2, words: &str, color: Color32
 
 /// Draws a mark at the edge of the picture towards a body outside of it.
 pub(super) fn draw_off_screen(painter: &Painter, lens: &Lens, body: &Body, area: &Area) {
-    let direction = lens.towards(body.center_m);
+    let direction = lens.screen_direction(body.center_m);
     let inside = area.rect.shrink(18.0);
     let half = 0.5 * inside.size();
     if direction == Vec2::ZERO || half.min_elem() <= 0.0 {
