@@ -27,9 +27,7 @@ impl Rendered {
     }
 }
 
-/// Renders the picture of a scene. Shadows and what is out of focus add up in batches of samples: once `go_on` says no there is no further one, and
-/// the picture is that of the batches before; none before the first of them. Without batches a picture that was stopped is black where it was
-/// not begun, and has no sample.
+/// Renders the picture of a scene; none where `go_on` says no before the first of its batches is there.
 pub(crate) async fn add_up(
     task: &Task,
     scene: &Scene,
