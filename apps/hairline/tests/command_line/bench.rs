@@ -48,7 +48,7 @@ fn the_table_has_all_cells_and_says_on_what_it_was_measured() {
     let rms = |row: &str, method: &str| -> f64 {
         let cells = cells
             .iter()
-            .filter(|c| c["row"] == row && c["method"] == method);
+            .filter(|c| c["row"] == row && c["way"] == method);
         let errors = cells.map(|cell| cell["error"]["relative_rms"].as_f64().unwrap());
         errors.fold(0.0, f64::max)
     };

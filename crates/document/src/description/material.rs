@@ -143,11 +143,11 @@ const OF_KINDS: &[(&str, &[Entry])] = &[("metal", &[Entry::Key(Material::COVER)]
 pub struct Reflections {
     /// As far as it is no metal: how much of its reflections it keeps, straight on and at grazing views (`KHR_materials_specular`). 1 is as of glass,
     /// 0 as of chalk.
-    #[key("specular": number(1.0).in_range(0.0, 1.0)
+    #[key("specular": omitted().number(1.0).in_range(0.0, 1.0)
         .control("Specular", linear(0.0, 1.0), "How much of its reflections what is no metal keeps. 1: those of plastic, refractive index 1.5. 0: none, as chalk."))]
     weight: f64,
     /// As far as it is no metal: the colour of its reflections straight on. At grazing views they stay white.
-    #[key("specular_color": color().is(Initial::Numbers(&[1.0, 1.0, 1.0])).in_range(0.0, 1.0)
+    #[key("specular_color": color().omitted().is(Initial::Numbers(&[1.0, 1.0, 1.0])).in_range(0.0, 1.0)
         .control("Specular colour", linear(0.0, 1.0), "The colour of what it reflects straight on, as far as it is no metal. White for all but cloth, feathers and other things of many layers."))]
     color: [f64; 3],
 }
