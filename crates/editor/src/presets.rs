@@ -142,7 +142,7 @@ pub enum MaterialPreset {
 impl MaterialPreset {
     /// Every preset, in the order of a menu.
     pub fn all() -> impl Iterator<Item = Self> {
-        const METALS: [Metal; 10] = [
+        const METALS: &[Metal] = &[
             Metal::StainlessSteel,
             Metal::Iron,
             Metal::Aluminium,
@@ -160,7 +160,7 @@ impl MaterialPreset {
             Self::DarkTable,
             Self::Mirror,
         ];
-        METALS.into_iter().map(Self::Metal).chain(others)
+        METALS.iter().copied().map(Self::Metal).chain(others)
     }
 
     /// Name in a menu.

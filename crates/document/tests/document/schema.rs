@@ -1,4 +1,4 @@
-//! What is made of the schema: the tables of docs/scene.md, the keys of Python's classes, and the schema of the glTF extension. `HAIRLINE_WRITE=1 cargo test -p hairline-document schema`
+//! What is made of the schema: the tables of docs/scene.md, the keys of Python's classes, and the schema of the glTF extension. `HAIRLINE_WRITE=1 cargo test --release --workspace --test document -- schema`
 //! writes them anew.
 
 use std::fmt::Write;
@@ -23,7 +23,7 @@ fn holds(file: &str, text: &str) {
     }
     let found = std::fs::read_to_string(&path).unwrap();
     let differs = found.lines().zip(text.lines()).find(|(a, b)| a != b);
-    let hint = "HAIRLINE_WRITE=1 cargo test -p hairline-document schema";
+    let hint = "HAIRLINE_WRITE=1 cargo test --release --workspace --test document -- schema";
     assert_eq!(differs, None, "{file} is not of this schema: {hint}");
     assert_eq!(found.len(), text.len(), "{file}: {hint}");
 }

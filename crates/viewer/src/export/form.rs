@@ -94,7 +94,7 @@ impl Form {
 
     /// The turntable; none: one picture.
     pub fn motion(&self) -> Option<Motion> {
-        self.is_turntable.then(|| Motion {
+        self.is_turntable.then_some(Motion {
             frames: self.frames,
             turn_deg: self.degrees,
             turns: self.turns,
