@@ -23,7 +23,9 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
     let ([others @ .., last], [other_keys @ .., last_key]) = (&idents[..], &keys[..]) else {
         return Err(Error::new_spanned(input, "needs a variant"));
     };
-    let (names, check_more) = (names(), options.check_more());
+    let names = names();
+    // It says more than the bounds of a key.
+    let check_first = options.check.iter();
     Ok(quote! {
         impl #owner {
             #(#constants)*
@@ -44,10 +46,10 @@ pub fn expand(input: &DeriveInput, options: &Options, data: &DataEnum) -> Result
                 }
 
                 fn check_keys(&self, key_path: &str) -> Check {
+                    #(#check_first(self, key_path)?;)*
                     match self {
-                        #(Self::#idents(value) => #keys.check(key_path, value)?,)*
+                        #(Self::#idents(value) => #keys.check(key_path, value),)*
                     }
-                    #check_more
                 }
 
                 fn write_keys<M: serde::ser::SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
