@@ -40,7 +40,7 @@ pub fn lay_on_mesh(
             continue;
         }
         let key = format!("scratches[{i}]");
-        refuse_parts(layer, &key)?;
+        refuse_parts(layer, arrays, &key)?;
         let picture = |name: &str, file: &Option<PathBuf>| {
             let key_path = format!("{key}.where.{name}");
             let read = file.as_ref();
@@ -106,18 +106,19 @@ pub fn object_of_gratings(rows: &[description::Grating]) -> Object {
 }
 
 /// Refuses what a mesh in memory does not have.
-fn refuse_parts(layer: &description::Scratches, key: &str) -> Result<(), Error> {
+fn refuse_parts(layer: &description::Scratches, arrays: &Arrays, key: &str) -> Result<(), Error> {
     let keys = [
         ("material", layer.material.is_some()),
         ("node", layer.node.is_some()),
     ];
     if let Layer::Engraved(engraved) = &layer.layer
         && let Some(file) = engraved.line.file()
+        && arrays.drawing(file).is_none()
     {
         return Err(Error::new(
             format!("{key}.{}", engraved.line.key().name),
             format!("found the drawing \"{}\"", file.display()),
-            "must be another pattern where scratches are laid on a mesh in memory",
+            "must be the name of a drawing in memory",
         ));
     }
     match keys.iter().find(|(_, is_there)| *is_there) {
@@ -153,5 +154,25 @@ mod tests {
         let layers = description::Scratches::from_toml(layers, Path::new("layers")).unwrap();
         let error = lay_on_mesh(&mesh, &layers, &Arrays::default(), 1.0).unwrap_err();
         assert_eq!(error.key(), "scratches[1].where.mask");
+    }
+
+    #[test]
+    fn drawings_in_memory_are_engraved() {
+        let corners = vec![[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [0.0, 0.04, 0.0]];
+        let mesh = MeshArrays::new(corners, vec![[0, 1, 2]], None, None).unwrap();
+        let layers = "[[scratches]]
+            object = 'it'
+            pattern = 'svg'
+            file = 'ring.svg'
+            fit_m = 0.004
+            center_m = [0.01, 0.01, 0]";
+        let layers = description::Scratches::from_toml(layers, Path::new("layers")).unwrap();
+        let mut arrays = Arrays::default();
+        let error = lay_on_mesh(&mesh, &layers, &arrays, 1.0).unwrap_err();
+        assert_eq!(error.key(), "scratches[0].file");
+        let svg = br#"<svg xmlns="http://www.w3.org/2000/svg"><circle r="5"/></svg>"#;
+        arrays.insert_drawing("ring.svg", svg);
+        let object = lay_on_mesh(&mesh, &layers, &arrays, 1.0).unwrap();
+        assert!(!object.segments.is_empty());
     }
 }
