@@ -92,7 +92,7 @@ impl InTurn {
             #[cfg(target_arch = "wasm32")]
             Painter::Gpu(task) => {
                 let progress = &task.at_rest()?.progress;
-                let pause = self.pause.before(progress, &order)?;
+                let pause = self.pause.time_to_wait(progress, &order)?;
                 if progress.is_at(&order) && shared.is_paused() {
                     return None;
                 }
