@@ -10,6 +10,7 @@ use super::table::Table;
 use crate::error::Error;
 use crate::schema::Entry;
 use crate::schema::key::{Form, Key, linear};
+use crate::schema::section::keys;
 
 pub(crate) use hairline_model::material::DEFAULT_COHERENCE_UM;
 
@@ -192,36 +193,26 @@ impl Material {
 
 /// The coat of a material that has one.
 fn coat(table: &Table) -> Result<Option<Coat>, Error> {
-    part(
-        table,
-        [Clearcoat::CLEARCOAT, Clearcoat::CLEARCOAT_ROUGHNESS],
-        "clearcoat = 1",
-    )
+    part(table, "clearcoat = 1")
 }
 
 /// The direction of a material that is brushed.
 fn anisotropy(table: &Table) -> Result<Option<Anisotropy>, Error> {
-    part(
-        table,
-        [Brushing::ANISOTROPY, Brushing::ANISOTROPY_DIRECTION_DEG],
-        "anisotropy = 0.6",
-    )
+    part(table, "anisotropy = 0.6")
 }
 
-/// A part that is there where its first key is; its second one belongs to it.
-fn part<T: Keyed>(
-    table: &Table,
-    [first, second]: [&Key; 2],
-    such_as: &str,
-) -> Result<Option<T>, Error> {
-    match (table.has(first.name), table.has(second.name)) {
-        (true, _) => T::read_keys(table).map(Some),
-        (false, false) => Ok(None),
-        (false, true) => Err(Error::new(
-            table.key_path(second.name),
-            format!("found no `{}` beside it", first.name),
+/// A part that is there where its first key is, to which the others belong.
+fn part<T: Keyed>(table: &Table, such_as: &str) -> Result<Option<T>, Error> {
+    let part: Option<T> = Keyed::read_keys(table)?;
+    let keys = keys(T::KEYS);
+    let other = keys.iter().find(|key| table.has(key.name));
+    match (part, other) {
+        (None, Some(other)) => Err(Error::new(
+            table.key_path(other.name),
+            format!("found no `{}` beside it", keys[0].name),
             format!("add one, such as `{such_as}`"),
         )),
+        (part, _) => Ok(part),
     }
 }
 
