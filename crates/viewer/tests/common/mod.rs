@@ -125,6 +125,16 @@ pub fn wait_until(
     }
 }
 
+/// Passes until the window shows a text that contains these words.
+pub fn wait_for_text(harness: &mut Harness<'static, Viewer>, words: &'static str) {
+    let start = Instant::now();
+    while harness.query_by_label_contains(words).is_none() {
+        assert!(start.elapsed() < PATIENCE, "{words}: not in {PATIENCE:?}");
+        std::thread::sleep(PAUSE);
+        harness.step();
+    }
+}
+
 /// Passes until the newest description is built.
 pub fn wait_built(harness: &mut Harness<'static, Viewer>) {
     wait_until(harness, "the scene is built", |viewer| {

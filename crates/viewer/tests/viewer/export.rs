@@ -235,13 +235,6 @@ fn a_turntable_turns_the_objects() {
 #[test]
 fn the_form_says_how_long_it_takes_and_where_nothing_is_transparent() {
     let mut harness = viewer(TINY);
-    let says = |harness: &mut Harness<'static, Viewer>, words: &'static str| {
-        let start = std::time::Instant::now();
-        while harness.query_by_label_contains(words).is_none() {
-            assert!(start.elapsed() < Duration::from_secs(60), "{words}");
-            harness.step();
-        }
-    };
     const FILLED: &str = "No pixel will be transparent";
     for (height_m, is_filled) in [(0.5, false), (0.1, true)] {
         let document = harness.state_mut().document_mut();
@@ -252,9 +245,9 @@ fn the_form_says_how_long_it_takes_and_where_nothing_is_transparent() {
         common::wait_built(&mut harness);
         harness.key_press_modifiers(Modifiers::COMMAND, Key::P);
         harness.run_steps(3);
-        says(&mut harness, "It takes about");
+        common::wait_for_text(&mut harness, "It takes about");
         common::click_on(&mut harness, "Transparent background");
-        says(&mut harness, "It takes about");
+        common::wait_for_text(&mut harness, "It takes about");
         assert_eq!(harness.query_by_label_contains(FILLED).is_some(), is_filled);
         common::click_on(&mut harness, "Transparent background");
         assert!(harness.query_by_label_contains(FILLED).is_none());

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use crate::common::{SMALL, click_on, description, viewer_of_file, wait_until};
+use crate::common::{SMALL, click_on, description, viewer_of_file, wait_for_text, wait_until};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
 use hairline_viewer::Viewer;
 
 fn open(path: &Path) -> Harness<'static, Viewer> {
@@ -35,15 +34,6 @@ fn expose(harness: &mut Harness<'static, Viewer>) {
 fn save(harness: &mut Harness<'static, Viewer>) {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
     harness.run_steps(3);
-}
-
-fn wait_for(harness: &mut Harness<'static, Viewer>, label: &'static str) {
-    let start = std::time::Instant::now();
-    while harness.query_by_label(label).is_none() {
-        assert!(start.elapsed().as_secs() < 600, "no {label:?}");
-        std::thread::sleep(std::time::Duration::from_millis(5));
-        harness.step();
-    }
 }
 
 #[test]
@@ -84,7 +74,7 @@ fn unsaved_changes_are_asked_about_and_kept_or_given_to_undo() {
     let mine = description(&harness);
     let theirs = SMALL.replace("fov_y_deg = 30.0", "fov_y_deg = 21.0");
     replace(&path, &theirs);
-    wait_for(&mut harness, "Keep the changes here");
+    wait_for_text(&mut harness, "Keep the changes here");
     assert_eq!(*description(&harness), *mine);
     click_on(&mut harness, "Keep the changes here");
     // Chosen is chosen.
@@ -99,7 +89,7 @@ fn unsaved_changes_are_asked_about_and_kept_or_given_to_undo() {
     expose(&mut harness);
     let mine = description(&harness);
     replace(&path, &theirs);
-    wait_for(&mut harness, "Load the file");
+    wait_for_text(&mut harness, "Load the file");
     click_on(&mut harness, "Load the file");
     assert_eq!(fov_y_deg(harness.state()), 21.0);
     crate::common::undo(&mut harness);
