@@ -70,5 +70,5 @@ pub use load::{build, from_toml, load};
 pub use loader::{Loader, Progress, Stage};
 pub use on_mesh::{lay_on_mesh, object_of_gratings};
 pub use rendering::{DEFAULT_SAMPLES, DEFAULT_TRANSPORT};
-pub use scratches::{LISTED_RANGES, Ruler, write_scratches};
+pub use scratches::{LISTED_RANGES, write_scratches};
 pub use shape::text::FONT;

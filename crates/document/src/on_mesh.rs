@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use hairline_image::FilePath;
+use hairline_laying::Ground;
 use hairline_scene::{Mesh, Object};
 
 use crate::arrays::{Arrays, MeshArrays};
 use crate::description::{self, Layer, standings};
 use crate::error::Error;
 use crate::loader::Loader;
-use crate::scratches::{Ground, PlaceInputs, Table, lay, put_together};
+use crate::scratches::{PlaceInputs, Table, lay, put_together};
 
 /// Lays layers of scratches on a mesh whose unit is `metres_per_unit` long, and returns them in metres. The layers name one object, any;
 /// pictures that they name are in `arrays`, and so are lists, or they are files. A seed means the same scratches as in a scene.

@@ -5,30 +5,19 @@
 //! 60 degrees, and where its field has no direction; a seed without direction lays none. Each scratch draws from a random
 //! stream of its own, so the result depends neither on the number of threads nor, for the first ones, on the count.
 
-mod closest;
-mod curve;
-mod cut;
-mod edges;
 mod engraved;
-mod erase;
-mod facet;
-mod ground;
-mod guide;
-mod laying;
 mod listed;
 mod memory;
-mod neighbours;
+mod off_object;
 mod outlines;
 mod painted;
 mod place;
-mod random;
-mod ruler;
 mod scattered;
-mod swirl;
-mod walk;
+mod sizes;
 mod written_list;
 
 use hairline_image::FilePath;
+use hairline_laying::{Course, Eraser, Ground, Laying, Stream, Walker, remaining_runs};
 use hairline_optics::section::Section;
 use hairline_scene::{Profile, Scratch, Segment};
 use rayon::prelude::*;
@@ -38,21 +27,15 @@ use crate::error::Error;
 use crate::loader::{Loader, Stage};
 
 use engraved::Engraving;
-use erase::Eraser;
-pub(crate) use ground::Ground;
-pub use laying::LISTED_RANGES;
-pub(crate) use laying::LISTED_SIZES;
-use laying::{Laying, MOST_SEGMENTS};
 use listed::Listed;
 pub(crate) use listed::{ListedRow, list_header, read as read_list};
-use memory::{Demand, SEGMENT_BYTES};
+use memory::{Demand, MOST_SEGMENTS, SEGMENT_BYTES};
 use painted::Painted;
 use place::GroundPlaces;
 pub(crate) use place::PlaceInputs;
-use random::Stream;
-pub use ruler::Ruler;
 use scattered::Scattered;
-use walk::{Course, Walker};
+pub use sizes::LISTED_RANGES;
+pub(crate) use sizes::LISTED_SIZES;
 pub use written_list::write_scratches;
 
 /// Number of scratches that are laid first, to learn how many segments one has.
@@ -263,7 +246,9 @@ impl<'a> Plan<'a> {
         Ok(Self {
             table,
             laying,
-            eraser: Eraser::new(loader, table.strokes, ground)?,
+            eraser: Eraser::new(painted::erasing(table.strokes, ground), ground, || {
+                loader.go_on()
+            })?,
             place: GroundPlaces::new(&table.means, ground, &table.key)?,
             count,
             pilot: Default::default(),
@@ -349,7 +334,7 @@ impl<'a> Plan<'a> {
         if self.eraser.is_none() && place.is_none() {
             return None;
         }
-        cut::rest(walker, course, whole, |segment, parts| {
+        remaining_runs(walker, course, whole, |segment, parts| {
             if let Some(eraser) = &self.eraser {
                 eraser.erased(segment, self.laying.strokes_before(index), parts);
             }

@@ -3,8 +3,8 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec3;
-use hairline_document::Ruler;
 use hairline_editor::quantity::Unit;
+use hairline_laying::Ruler;
 use hairline_scene::{Mesh, Object, Scratch};
 
 use crate::jobs::Job;

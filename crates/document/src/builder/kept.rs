@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat4, DVec3};
 use hairline_image::FilePath;
+use hairline_laying::Ground;
 use hairline_model::mesh_file::{self, FileContents, Placing, UsedContents};
 use hairline_model::text::shown;
 use hairline_optics::section::Section;
@@ -18,7 +19,7 @@ use crate::description::{self, Layer, LayerPlaces, LightKind, Map, Stroke, Surfa
 use crate::error::Error;
 use crate::grey_map::GreyMap;
 use crate::loader::Loader;
-use crate::scratches::{self, Ground, Laid};
+use crate::scratches::{self, Laid};
 use crate::stamp::Stamp;
 use crate::{model_notes, shape};
 

@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::DMat4;
+use hairline_laying::Ground;
 use hairline_model::text::shown;
 use hairline_scene::{Material, Mesh, NodeTriangles};
 
 use crate::description::hint::nearest;
 use crate::description::{Override, Scratches};
 use crate::error::Error;
-use crate::scratches::{Ground, Laid};
+use crate::scratches::Laid;
 
 /// The keys `material` and `node` of a `[[scratches]]`.
 #[derive(Clone, Debug, Default, PartialEq)]

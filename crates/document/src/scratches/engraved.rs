@@ -8,35 +8,23 @@ use std::ops::Range;
 
 use glam::DVec3;
 use hairline_image::FilePath;
+use hairline_laying::{
+    Course, Cubic, Facet, Groove, Ground, Guide, Laying, MeshPoint, Outline, Stream, Walker,
+    lay_outline, smooth_curve,
+};
 use hairline_scene::Segment;
 use kurbo::{PathEl, PathSeg, Point};
 use rayon::prelude::*;
 
-use super::curve::{Cubic, spline};
-use super::facet::Facet;
-use super::ground::Ground;
-use super::guide::Guide;
-use super::laying::{Groove, Laying, scratch_profile};
+use super::off_object::refuse_far;
 use super::outlines::{self, Stamp};
-use super::random::Stream;
-use super::walk::{Course, MeshPoint, StraightPiece, Walker, join};
+use super::sizes::scratch_profile;
 use crate::description::{Engraved, Line};
 use crate::error::Error;
 use crate::loader::Loader;
 
-/// Distance of a curve from the surface, as a share of the object's diagonal, up to which it is moved onto it as it is.
-const OFF_SURFACE: f64 = 1e-4;
-/// A curve gets further points on the surface in so many rounds at most: each halves their distance.
-const ROUNDS: usize = 8;
-/// The longest piece of a curve that is laid as one, as a share of the object's diagonal: over an edge both ends of it are near.
-const LONGEST: f64 = 1.0 / 256.0;
-
 /// Least part of a direction that leads along the surface.
 const LEAST_ALONG: f64 = 1e-3;
-/// Steps in which a point is moved along a direction onto the surface, facet by facet.
-const STEPS: usize = 16;
-/// Least part of that direction across a facet.
-const LEAST_ACROSS: f64 = 0.1;
 /// Lines that are laid between two looks at whether to give up.
 const TOGETHER: usize = 64;
 
@@ -81,7 +69,7 @@ impl<'a> Engraving<'a> {
         let lines = match &layer.line {
             Line::Curve { points_m, closed } => {
                 for (i, point) in points_m.iter().enumerate() {
-                    ground.refuse_far(*point, ground.diagonal_m, || format!("{key}[{i}]"))?;
+                    refuse_far(ground, *point, ground.diagonal_m, || format!("{key}[{i}]"))?;
                 }
                 vec![Outline {
                     cubics: smooth_curve(points_m, *closed, ground),
@@ -115,7 +103,10 @@ impl<'a> Engraving<'a> {
         let mut lines_off = 0;
         for (together, lines) in (0..).step_by(TOGETHER).zip(lines.chunks(TOGETHER)) {
             loader.go_on()?;
-            let laid: Vec<_> = lines.par_iter().map(|path| laid(ground, path)).collect();
+            let laid: Vec<_> = lines
+                .par_iter()
+                .map(|path| lay_outline(ground, path))
+                .collect();
             for (line, parts) in (together..).zip(laid) {
                 lines_off += usize::from(parts.is_empty());
                 for (course, segments) in parts {
@@ -274,13 +265,6 @@ impl Laying for Engraving<'_> {
     }
 }
 
-/// A line before it is laid.
-struct Outline {
-    cubics: Vec<Cubic>,
-    /// Direction in which it is moved onto the surface, for what is off it.
-    down: Option<DVec3>,
-}
-
 /// The place of outlines on the surface.
 struct Plate<'a> {
     ground: &'a Ground,
@@ -298,7 +282,7 @@ impl<'a> Plate<'a> {
         key: &str,
     ) -> Result<Self, Error> {
         let key_path = || format!("{key}.{}", Line::MIDDLE_M.name);
-        ground.refuse_far(center_m, ground.diagonal_m, key_path)?;
+        refuse_far(ground, center_m, ground.diagonal_m, key_path)?;
         let (middle, _) = ground.closest().find(ground.point_in_world_m(center_m));
         let facet = Facet::new(&ground.mesh, middle.triangle);
         let along = facet.in_plane(ground.direction_in_world(direction));
@@ -352,120 +336,4 @@ impl<'a> Plate<'a> {
         }
         lines
     }
-}
-
-/// The smooth curve through points. It gets further points on the surface where it is off it, so that it follows the surface between distant
-/// points.
-fn smooth_curve(points_m: &[[f64; 3]], is_closed: bool, ground: &Ground) -> Vec<Cubic> {
-    let onto_surface = |point_m: DVec3| {
-        let (spot, _) = ground.closest().find(point_m);
-        let is_under = ground.is_under(&spot, point_m);
-        if is_under { spot.point_m } else { point_m }
-    };
-    let points = points_m.iter();
-    let mut points: Vec<_> = points
-        .map(|point| onto_surface(ground.point_in_world_m(*point)))
-        .collect();
-    points.dedup();
-    if is_closed && points.first() == points.last() {
-        points.pop();
-    }
-    if points.len() < 2 {
-        return Vec::new();
-    }
-    let most_m = OFF_SURFACE * ground.diagonal_m;
-    for _ in 0..ROUNDS {
-        let mut finer = Vec::new();
-        let cubics = spline(&points, is_closed);
-        for cubic in &cubics {
-            let middle_m = cubic.middle();
-            let on_surface_m = onto_surface(middle_m);
-            finer.push(cubic.0[0]);
-            finer.extend((on_surface_m.distance(middle_m) > most_m).then_some(on_surface_m));
-        }
-        if finer.len() == cubics.len() {
-            return cubics;
-        }
-        finer.extend(points.last().filter(|_| !is_closed));
-        finer.dedup();
-        points = finer;
-    }
-    spline(&points, is_closed)
-}
-
-/// Lays a line of curves that follow one another, in as many runs as edges of the surface part it into.
-fn laid(ground: &Ground, outline: &Outline) -> Vec<(Course, Vec<Segment>)> {
-    let Some(first) = outline.cubics.first() else {
-        return Vec::new();
-    };
-    let mut points_m = vec![first.0[0]];
-    for cubic in &outline.cubics {
-        cubic.flatten(LONGEST * ground.diagonal_m, &mut points_m);
-    }
-    if let Some(down) = outline.down {
-        for point_m in &mut points_m {
-            *point_m = moved(ground, *point_m, down);
-        }
-    }
-    let walker = ground.walker();
-    let mut runs = runs(ground, &walker, &points_m);
-    let mut course = Course::Open;
-    if points_m.first() == points_m.last() {
-        match runs.len() {
-            1 => course = Course::Closed,
-            _ => {
-                // The part before the first edge goes on from that after the last one.
-                let first = runs.swap_remove(0);
-                join(&mut runs[0], first);
-            }
-        }
-    }
-    runs.into_iter()
-        .filter_map(|run| {
-            let mut segments = Vec::new();
-            let course = walker.append(run, course, &mut segments);
-            (!segments.is_empty()).then_some((course, segments))
-        })
-        .collect()
-}
-
-/// A point moved along a direction onto the surface. The nearest places of points that are far off would follow the edges of facets.
-fn moved(ground: &Ground, mut point_m: DVec3, along: DVec3) -> DVec3 {
-    for _ in 0..STEPS {
-        let (spot, off_m) = ground.closest().find(point_m);
-        let normal = Facet::new(&ground.mesh, spot.triangle).normal;
-        let slope = along.dot(normal);
-        if off_m == 0.0 || slope.abs() < LEAST_ACROSS {
-            break;
-        }
-        let along_m = (spot.point_m - point_m).dot(normal) / slope;
-        point_m += along * along_m;
-        if along_m.abs() < 1e-12 {
-            break;
-        }
-    }
-    point_m
-}
-
-/// The ways on the surface along points: one, or several with edges between them that no way leads over. There is none beyond a rim.
-fn runs(ground: &Ground, walker: &Walker, points_m: &[DVec3]) -> Vec<Vec<StraightPiece>> {
-    let mut runs = vec![Vec::new()];
-    let mut last: Option<(MeshPoint, bool)> = None;
-    for point_m in points_m {
-        let (spot, _) = ground.closest().find(*point_m);
-        let is_on = ground.is_under(&spot, *point_m);
-        if let Some((from, was_on)) = last {
-            if from.point_m.distance(spot.point_m) < walker.shortest_piece_m {
-                continue;
-            }
-            if is_on || was_on {
-                walker.go(from, spot, &mut runs);
-            }
-            if !is_on {
-                runs.push(Vec::new());
-            }
-        }
-        last = Some((spot, is_on));
-    }
-    runs
 }

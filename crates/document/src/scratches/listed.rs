@@ -5,15 +5,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec3;
 use hairline_image::FilePath;
+use hairline_laying::{Course, Groove, Ground, Guide, LONGEST_WAY, Laying, MeshPoint, Walker};
 use hairline_model::reading::{self, FileKind};
 use hairline_model::text::shown;
 use hairline_scene::{Profile, Segment};
 use rayon::prelude::*;
 
-use super::ground::Ground;
-use super::guide::Guide;
-use super::laying::{Groove, LISTED_SIZES, Laying};
-use super::walk::{Course, LONGEST_WAY, MeshPoint, Walker};
+use super::sizes::LISTED_SIZES;
 use crate::arrays::ScratchArrays;
 use crate::error::{Error, length};
 use crate::loader::Loader;

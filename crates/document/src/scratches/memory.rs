@@ -3,8 +3,10 @@
 use hairline_memory::{costs, in_words};
 use hairline_scene::{Scratch, Segment};
 
-use super::laying::MOST_SEGMENTS;
 use crate::error::Error;
+
+/// The renderers' trees number the segments by 28 bits.
+pub(super) const MOST_SEGMENTS: usize = 1 << 28;
 
 /// Bytes of a segment.
 pub(super) const SEGMENT_BYTES: u64 = size_of::<Segment>() as u64 + costs::SEGMENT_RENDERED;

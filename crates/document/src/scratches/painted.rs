@@ -6,14 +6,13 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
+use hairline_laying::{
+    Course, ErasingStroke, Facet, Groove, Ground, Guide, Laying, MeshPoint, Stream, Walker,
+};
 use hairline_scene::Segment;
 
-use super::facet::Facet;
-use super::ground::Ground;
-use super::guide::Guide;
-use super::laying::{Groove, Laying, scratch_profile};
-use super::random::Stream;
-use super::walk::{Course, MeshPoint, Walker};
+use super::off_object::refuse_far;
+use super::sizes::scratch_profile;
 use crate::description::{Brush, Brushed, Stroke};
 use crate::error::Error;
 
@@ -129,7 +128,8 @@ impl Laying for Painted<'_> {
                 seed_direction: direction * cos + facet.normal.cross(direction) * sin,
                 curvature_per_m: 0.0,
             };
-            let length_m = self.ground.scratch_length_m(&self.layer.length_m, length);
+            let length_m = self.layer.length_m.log_normal_at(length);
+            let length_m = self.ground.fitting_length_m(length_m);
             walker.lay(seed, &guide, length_m, segments);
         }
         Groove {
@@ -163,7 +163,7 @@ impl Path {
         else {
             return None;
         };
-        let points_m = world_points_m(description, ground);
+        let points_m = ground.points_in_world_m(&description.points_m);
         let mut lengths_m = vec![0.0];
         for pair in points_m.windows(2) {
             lengths_m.push(lengths_m[lengths_m.len() - 1] + pair[0].distance(pair[1]));
@@ -242,16 +242,22 @@ pub(super) fn check(strokes: &[Stroke], key: &str, ground: &Ground) -> Result<()
         let most_m = ground.diagonal_m.max(REACH * stroke.radius_m);
         for (j, point) in stroke.points_m.iter().enumerate() {
             let key = || format!("{key}.strokes[{i}].points_m[{j}]");
-            ground.refuse_far(*point, most_m, key)?;
+            refuse_far(ground, *point, most_m, key)?;
         }
     }
     Ok(())
 }
 
-/// A stroke's points in world space, without repetitions.
-pub(super) fn world_points_m(stroke: &Stroke, ground: &Ground) -> Vec<DVec3> {
-    let points = stroke.points_m.iter();
-    let mut points_m: Vec<_> = points.map(|p| ground.point_in_world_m(*p)).collect();
-    points_m.dedup_by(|next, last| next.distance(*last) == 0.0);
-    points_m
+/// The strokes that erase.
+pub(super) fn erasing<'a>(
+    strokes: &'a [Stroke],
+    ground: &'a Ground,
+) -> impl Iterator<Item = ErasingStroke> + 'a {
+    let numbered = strokes.iter().enumerate();
+    let erasing = numbered.filter(|(_, stroke)| stroke.brush == Brush::Erase);
+    erasing.map(|(number, stroke)| ErasingStroke {
+        points_m: ground.points_in_world_m(&stroke.points_m),
+        radius_m: stroke.radius_m,
+        number,
+    })
 }

@@ -3,13 +3,11 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use hairline_laying::{
+    Edges, Facet, Ground, MeshPoint, RemovedParts, ball, barycentric, facet_normal,
+};
 use hairline_scene::{PictureLie, Segment, three_sides};
 
-use super::cut::{RemovedParts, ball};
-use super::edges::Edges;
-use super::facet::{self, Facet};
-use super::ground::Ground;
-use super::walk::MeshPoint;
 use crate::description;
 use crate::error::Error;
 use crate::grey_map::GreyMap;
@@ -132,8 +130,8 @@ impl<'a> GroundPlaces<'a> {
     fn look_up(&self, triangle: u32, point_m: DVec3) -> LookUp {
         let mesh = &self.ground.mesh;
         let corners_m = mesh.corners_m(triangle as usize);
-        let facet_normal = facet::normal(corners_m);
-        let weights = facet::barycentric(corners_m, facet_normal, point_m);
+        let own_normal = facet_normal(corners_m);
+        let weights = barycentric(corners_m, own_normal, point_m);
         let corners = mesh.triangles[triangle as usize].map(|corner| corner as usize);
         match self.lie {
             PictureLie::ByUv => {
@@ -145,7 +143,7 @@ impl<'a> GroundPlaces<'a> {
             }
             PictureLie::FromThreeSides { tiles_from_world } => {
                 let normal = |i: usize| mesh.normals[corners[i]].as_dvec3() * weights[i];
-                let normal = (normal(0) + normal(1) + normal(2)).normalize_or(facet_normal);
+                let normal = (normal(0) + normal(1) + normal(2)).normalize_or(own_normal);
                 let (uvs, shares) = three_sides(&tiles_from_world, point_m, normal);
                 LookUp { uvs, shares }
             }

@@ -2,15 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::facet::Facet;
-use super::ground::Ground;
-use super::guide::Guide;
-use super::laying::{Groove, Laying, scratch_profile};
-use super::random::Stream;
-use super::swirl::Lattice;
-use super::walk::{MeshPoint, Walker};
-use crate::description::{Laid, Pattern, PatternAxis};
+use hairline_laying::{Facet, Groove, Ground, Guide, Lattice, Laying, MeshPoint, Stream, Walker};
 use hairline_scene::{Bearing, Segment};
+
+use super::sizes::scratch_profile;
+use crate::description::{Laid, Pattern, PatternAxis};
 
 /// A layer's description with the ground that it goes on.
 pub(super) struct Scattered<'a> {
@@ -29,7 +25,9 @@ impl Laying for Scattered<'_> {
         let seed_angle_rad = TAU * stream.uniform();
         let [length, width, depth, curvature, jitter] = std::array::from_fn(|_| stream.normal());
 
-        let length_m = self.ground.scratch_length_m(&laid.length_m, length);
+        let length_m = self
+            .ground
+            .fitting_length_m(laid.length_m.log_normal_at(length));
         let guide = self.guide(seed, seed_angle_rad, curvature, jitter);
         Groove {
             profile: scratch_profile([laid.width_um, laid.depth_nm], [width, depth], [1.0; 2]),

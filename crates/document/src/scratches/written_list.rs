@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use glam::{DMat3, DMat4, Vec3};
 use hairline_scene::{Object, Scratch};
 
-use super::laying::LISTED_SIZES;
+use super::sizes::LISTED_SIZES;
 use super::listed::{MORE_COLUMNS, columns};
 
 /// Writes laid scratches of an object: a straight piece a row, in the frame that `frame_from_world` leads to. In the object's own frame

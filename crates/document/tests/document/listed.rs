@@ -267,7 +267,7 @@ fn a_ruler_goes_along_the_surface() {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
             .unwrap();
         let from = middle(triangle);
-        let path_m = hairline_document::Ruler::new(mesh.clone()).path_m(triangle, from, to)?;
+        let path_m = hairline_laying::Ruler::new(mesh.clone()).path_m(triangle, from, to)?;
         let length_m: f64 = path_m.array_windows().map(|[a, b]| a.distance(*b)).sum();
         let straight_m = from.distance(to);
         Some((length_m, straight_m))

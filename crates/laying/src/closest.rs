@@ -12,7 +12,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec3};
 use hairline_scene::Mesh;
 
-use super::walk::MeshPoint;
+use crate::walk::MeshPoint;
 
 /// Triangles in a leaf.
 const LEAF: usize = 4;
@@ -25,7 +25,7 @@ const ALONE: usize = 1 << 12;
 
 /// A tree over a mesh's triangles.
 #[derive(Debug)]
-pub(super) struct Closest {
+pub struct Closest {
     mesh: Arc<Mesh>,
     /// Triangles in the order of the leaves.
     triangles: Vec<u32>,
@@ -112,7 +112,7 @@ struct Item {
 
 impl Closest {
     /// `mesh` must have a triangle.
-    pub(super) fn new(mesh: Arc<Mesh>) -> Self {
+    pub fn new(mesh: Arc<Mesh>) -> Self {
         let mut items: Vec<Item> = (0..)
             .zip(&mesh.triangles)
             .map(|(triangle, corners)| {
@@ -134,7 +134,7 @@ impl Closest {
     }
 
     /// The nearest place on the mesh, and its distance in metres.
-    pub(super) fn find(&self, point_m: DVec3) -> (MeshPoint, f64) {
+    pub fn find(&self, point_m: DVec3) -> (MeshPoint, f64) {
         self.nearest(point_m, f64::INFINITY).unwrap_or_else(|| {
             let spot = MeshPoint {
                 triangle: 0,
@@ -145,7 +145,7 @@ impl Closest {
     }
 
     /// Finds the nearest point within a distance; a place far from the mesh costs no time.
-    pub(super) fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(MeshPoint, f64)> {
+    pub fn find_within(&self, point_m: DVec3, most_m: f64) -> Option<(MeshPoint, f64)> {
         // A little more, for what rounds.
         self.nearest(point_m, most_m * most_m * (1.0 + 1e-9))
     }
@@ -326,18 +326,14 @@ fn nearest_on_triangle([a, b, c]: [DVec3; 3], point: DVec3, most: f64) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Shape;
-    use crate::shape;
-    use glam::DMat4;
+    use crate::test_meshes::mesh;
 
     #[test]
     fn finds_what_a_search_through_all_finds() {
-        let mut mesh = Mesh::default();
-        shape::surface(&Shape::Sphere { radius_m: 0.1 }).bake(
-            &DMat4::from_scale(DVec3::new(1.0, 2.0, 0.5)),
-            0,
-            &mut mesh,
-        );
+        let mut mesh = mesh("sphere = { radius_m = 0.1 }");
+        for position_m in &mut mesh.positions_m {
+            *position_m *= Vec3::new(1.0, 2.0, 0.5);
+        }
         let mesh = Arc::new(mesh);
         let tree = Closest::new(mesh.clone());
         for i in 0..50 {

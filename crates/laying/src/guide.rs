@@ -9,14 +9,14 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use hairline_scene::Bearing;
 
-use super::facet::Facet;
+use crate::facet::Facet;
 
 /// Nearer than this to its axis, or to its end, a field has no direction.
 const NO_DIRECTION_M: f64 = 1e-8;
 
 /// The longest chord for an arc: it turns by half a degree, or is as long as two coherence widths of 20 um (the model sees
 /// nothing finer) if that turns by less than 5 degrees.
-pub(super) fn chord_length_m(curvature_per_m: f64) -> f64 {
+pub(crate) fn chord_length_m(curvature_per_m: f64) -> f64 {
     const HALF_DEGREE_RAD: f64 = std::f64::consts::PI / 360.0;
     const COHERENT_M: f64 = 40e-6;
     let curvature = curvature_per_m.abs();
@@ -25,30 +25,42 @@ pub(super) fn chord_length_m(curvature_per_m: f64) -> f64 {
 
 /// Direction field that one scratch follows.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Guide {
+pub enum Guide {
     /// A direction of the scratch's own, straight or bending by a constant curvature in the surface.
     Free {
         /// Unit, in the plane of the seed's facet.
         seed_direction: DVec3,
+        /// Positive to the left.
         curvature_per_m: f64,
     },
-    /// The projection of one direction, turned by `jitter_rad`.
-    Parallel { direction: DVec3, jitter_rad: f64 },
-    /// A fixed bearing to the circles about an axis, turned by `jitter_rad`.
+    /// The projection of one direction.
+    Parallel {
+        /// World space.
+        direction: DVec3,
+        /// Angle from its projection to the scratch, to the left.
+        jitter_rad: f64,
+    },
+    /// A fixed bearing to the circles about an axis.
     Around {
         /// Unit.
         axis: DVec3,
+        /// A point on the axis.
         center_m: DVec3,
+        /// Direction relative to the circles.
         bearing: Bearing,
+        /// Angle from that direction to the scratch, to the left.
         jitter_rad: f64,
     },
     /// Straight to a point.
-    Towards { end_m: DVec3 },
+    Towards {
+        /// World space.
+        end_m: DVec3,
+    },
 }
 
 /// Next step of a scratch: straight or along an arc, and how far before asking again.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Aim {
+pub(crate) struct Aim {
     /// Unit, in the facet's plane.
     pub direction: DVec3,
     /// Positive to the left.
@@ -57,7 +69,7 @@ pub(super) struct Aim {
 }
 
 impl Aim {
-    pub(super) fn straight(direction: DVec3) -> Self {
+    pub(crate) fn straight(direction: DVec3) -> Self {
         Self {
             direction,
             curvature_per_m: 0.0,
@@ -69,7 +81,7 @@ impl Aim {
 impl Guide {
     /// The way from a point of a facet; `None` where the field has no direction. `heading` is the way until here, in the
     /// facet's plane; `reversed` goes the other way.
-    pub(super) fn aim(
+    pub(crate) fn aim(
         &self,
         facet: &Facet,
         point_m: DVec3,
@@ -120,7 +132,7 @@ impl Guide {
     }
 
     /// Least length of a scratch that can come back to its start.
-    pub(super) fn shortest_ring_m(&self, seed_m: DVec3) -> f64 {
+    pub(crate) fn shortest_ring_m(&self, seed_m: DVec3) -> f64 {
         let radius_m = match *self {
             Guide::Free {
                 curvature_per_m, ..

@@ -3,16 +3,19 @@
 
 use glam::DVec3;
 
-use super::facet::Facet;
-use super::random::Stream;
+use crate::facet::Facet;
+use crate::random::Stream;
 
 /// Number that is added to a stream's index for the lattice: scratches have lower indices.
 const LATTICE_STREAMS: u64 = 1 << 63;
 
 /// The centres of a layer.
-pub(super) struct Lattice {
+pub struct Lattice {
+    /// Seed of the layer.
     pub seed: u64,
+    /// Number that distinguishes layers of one seed.
     pub number: u64,
+    /// Width of a cell.
     pub cell_m: f64,
     /// A corner of a cell.
     pub origin_m: DVec3,
@@ -20,7 +23,7 @@ pub(super) struct Lattice {
 
 impl Lattice {
     /// Returns the centre around a point, brought into its facet's plane, whose distance is nearest to `radius_m`.
-    pub(super) fn center(&self, facet: &Facet, point_m: DVec3, radius_m: f64) -> DVec3 {
+    pub fn center(&self, facet: &Facet, point_m: DVec3, radius_m: f64) -> DVec3 {
         let cell = ((point_m - self.origin_m) / self.cell_m)
             .floor()
             .as_i64vec3();

@@ -5,13 +5,11 @@ use std::sync::{Arc, OnceLock};
 use glam::{DMat4, DVec3};
 use hairline_scene::Mesh;
 
-use super::closest::Closest;
-use super::facet::Facet;
-use super::neighbours::Neighbours;
-use super::random::Stream;
-use super::walk::{MeshPoint, Walker, shortest_piece_m};
-use crate::description::Distribution;
-use crate::error::{Error, length};
+use crate::closest::Closest;
+use crate::facet::Facet;
+use crate::neighbours::Neighbours;
+use crate::random::Stream;
+use crate::walk::{MeshPoint, Walker, shortest_piece_m};
 
 /// Half of the usual coherence width.
 const SHORTEST_M: f64 = 10e-6;
@@ -26,14 +24,15 @@ const BESIDE_M: f64 = 1e-7;
 
 /// A mesh with all data that laying needs.
 #[derive(Debug)]
-pub(crate) struct Ground {
-    pub(super) mesh: Arc<Mesh>,
+pub struct Ground {
+    /// In world space.
+    pub mesh: Arc<Mesh>,
     /// The object's own frame, in which patterns are described.
-    pub(super) world_from_object: DMat4,
+    pub world_from_object: DMat4,
     /// Corner of the bounding box with the least coordinates.
-    pub(super) corner_m: DVec3,
+    pub corner_m: DVec3,
     /// The length of the box's diagonal.
-    pub(super) diagonal_m: f64,
+    pub diagonal_m: f64,
     /// Length of the shortest piece of a walk.
     shortest_piece_m: f64,
     neighbours: Neighbours,
@@ -44,7 +43,8 @@ pub(crate) struct Ground {
 }
 
 impl Ground {
-    pub(crate) fn new(mesh: Arc<Mesh>, world_from_object: DMat4) -> Self {
+    /// Makes a mesh ready.
+    pub fn new(mesh: Arc<Mesh>, world_from_object: DMat4) -> Self {
         let mut sum = 0.0;
         let areas_m2 = (0..mesh.triangles.len())
             .map(|triangle| {
@@ -66,58 +66,43 @@ impl Ground {
         }
     }
 
-    pub(super) fn area_m2(&self) -> f64 {
+    /// The area of the surface.
+    pub fn area_m2(&self) -> f64 {
         self.areas_m2.last().copied().unwrap_or(0.0)
     }
 
-    pub(super) fn walker(&self) -> Walker<'_> {
+    /// Walks on the mesh.
+    pub fn walker(&self) -> Walker<'_> {
         Walker::new(&self.mesh, &self.neighbours, self.shortest_piece_m)
     }
 
     /// The nearest places on the surface.
-    pub(super) fn closest(&self) -> &Closest {
+    pub fn closest(&self) -> &Closest {
         self.closest.get_or_init(|| Closest::new(self.mesh.clone()))
     }
 
     /// Whether the nearest place to a point is below it, and not beside it on a rim.
-    pub(super) fn is_under(&self, spot: &MeshPoint, point_m: DVec3) -> bool {
+    pub fn is_under(&self, spot: &MeshPoint, point_m: DVec3) -> bool {
         let off = point_m - spot.point_m;
         let beside = Facet::new(&self.mesh, spot.triangle).in_plane(off);
         off.length() <= BESIDE_M || beside.length() <= BESIDE_SINE * off.length()
     }
 
-    /// Refuses a point that is farther than `most_m` from the box about the object; `key` is its path.
-    pub(super) fn refuse_far(
-        &self,
-        point: [f64; 3],
-        most_m: f64,
-        key: impl FnOnce() -> String,
-    ) -> Result<(), Error> {
+    /// Distance of a point of the object's own frame from the box about the object.
+    pub fn off_box_m(&self, point_m: [f64; 3]) -> f64 {
         let (least, most) = self.mesh.bounds_m();
         let (least, most) = (least.as_dvec3(), most.as_dvec3());
-        let point_m = self.point_in_world_m(point);
-        let off_m = point_m.distance(point_m.clamp(least, most));
-        match off_m <= most_m {
-            true => Ok(()),
-            false => Err(Error::new(
-                key(),
-                format!("found a point {} off the object", length(off_m)),
-                format!(
-                    "must be at most {} off, in metres of the object's own frame",
-                    length(most_m)
-                ),
-            )),
-        }
+        let point_m = self.point_in_world_m(point_m);
+        point_m.distance(point_m.clamp(least, most))
     }
 
-    /// Length that lies `normal` standard deviations from the mean, limited to lengths that fit the surface.
-    pub(super) fn scratch_length_m(&self, drawn: &Distribution, normal: f64) -> f64 {
-        let longest_m = (LONGEST * self.diagonal_m).max(SHORTEST_M);
-        drawn.log_normal_at(normal).clamp(SHORTEST_M, longest_m)
+    /// The nearest length of a scratch that fits the surface.
+    pub fn fitting_length_m(&self, length_m: f64) -> f64 {
+        length_m.clamp(SHORTEST_M, (LONGEST * self.diagonal_m).max(SHORTEST_M))
     }
 
     /// A place on the surface, each area alike.
-    pub(super) fn random_spot(&self, stream: &mut Stream) -> MeshPoint {
+    pub fn random_spot(&self, stream: &mut Stream) -> MeshPoint {
         let wanted = stream.uniform() * self.area_m2();
         let triangle = self.areas_m2.partition_point(|area| *area <= wanted);
         // Rounding may carry the product up to the whole area.
@@ -132,12 +117,21 @@ impl Ground {
         }
     }
 
-    pub(super) fn point_in_world_m(&self, point_m: [f64; 3]) -> DVec3 {
+    /// A point of the object's own frame, in world space.
+    pub fn point_in_world_m(&self, point_m: [f64; 3]) -> DVec3 {
         self.world_from_object.transform_point3(point_m.into())
     }
 
+    /// Points in world space, without repetitions.
+    pub fn points_in_world_m(&self, points_m: &[[f64; 3]]) -> Vec<DVec3> {
+        let points = points_m.iter();
+        let mut points_m: Vec<_> = points.map(|p| self.point_in_world_m(*p)).collect();
+        points_m.dedup_by(|next, last| next.distance(*last) == 0.0);
+        points_m
+    }
+
     /// A unit direction in world space.
-    pub(super) fn direction_in_world(&self, direction: [f64; 3]) -> DVec3 {
+    pub fn direction_in_world(&self, direction: [f64; 3]) -> DVec3 {
         self.world_from_object
             .transform_vector3(direction.into())
             .normalize_or_zero()

@@ -4,9 +4,9 @@
 use glam::{DVec3, Vec3};
 use hairline_scene::{Mesh, Segment};
 
-use super::facet::{self, Arc, Facet};
-use super::guide::{Aim, Guide, chord_length_m};
-use super::neighbours::Neighbours;
+use crate::facet::{self, Arc, Facet};
+use crate::guide::{Aim, Guide, chord_length_m};
+use crate::neighbours::Neighbours;
 
 /// A walk that needs more steps than this is going nowhere.
 const MOST_STEPS: usize = 1 << 20;
@@ -16,7 +16,7 @@ const MOST_IDLE_STEPS: usize = 128;
 const TURN_BACK_COS: f64 = 0.5;
 
 /// Longest way on the surface between two points over their distance: on a curved surface it is longer than the straight line.
-pub(super) const LONGEST_WAY: f64 = 4.0;
+pub const LONGEST_WAY: f64 = 4.0;
 /// Share of a way by which it may miss its end and still arrives.
 const MISSED: f64 = 1e-3;
 /// A place that is nearer to a triangle is on its edge, but for rounding.
@@ -24,37 +24,40 @@ const ON_EDGE_M: f64 = 1e-10;
 
 /// A place on the surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MeshPoint {
+pub struct MeshPoint {
+    /// Index of the triangle that it lies on.
     pub triangle: u32,
+    /// World space.
     pub point_m: DVec3,
 }
 
 /// A straight piece within one triangle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct StraightPiece {
+pub(crate) struct StraightPiece {
     start_m: DVec3,
     end_m: DVec3,
     triangle: u32,
 }
 
 /// Walks on one mesh.
-pub(super) struct Walker<'a> {
+pub struct Walker<'a> {
     mesh: &'a Mesh,
     neighbours: &'a Neighbours,
     /// Shorter pieces are left out.
-    pub(super) shortest_piece_m: f64,
+    pub shortest_piece_m: f64,
 }
 
 /// The shortest piece that is laid on a mesh of such bounds. Shorter ones add nothing under a coherence width of 20 um, and their direction would
 /// be lost in single precision.
-pub(super) fn shortest_piece_m((least, most): (Vec3, Vec3)) -> f64 {
+pub(crate) fn shortest_piece_m((least, most): (Vec3, Vec3)) -> f64 {
     let farthest = least.abs().max(most.abs()).max_element();
     f64::from(farthest * f32::EPSILON * 16.0).max(0.5e-6)
 }
 
 /// Course of a walk, besides its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Course {
+pub enum Course {
+    /// The walk has two ends.
     Open,
     /// The walk came back to its start.
     Closed,
@@ -62,7 +65,7 @@ pub(super) enum Course {
 
 impl<'a> Walker<'a> {
     /// `shortest_piece_m` is that of the mesh.
-    pub(super) fn new(mesh: &'a Mesh, neighbours: &'a Neighbours, shortest_piece_m: f64) -> Self {
+    pub(crate) fn new(mesh: &'a Mesh, neighbours: &'a Neighbours, shortest_piece_m: f64) -> Self {
         Self {
             mesh,
             neighbours,
@@ -71,7 +74,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Lays a scratch with its middle at the seed and appends its segments: none if the guide has no direction there.
-    pub(super) fn lay(
+    pub fn lay(
         &self,
         seed: MeshPoint,
         guide: &Guide,
@@ -97,7 +100,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Lays a scratch from `start` on, as far as its guide leads.
-    pub(super) fn lay_from(
+    pub fn lay_from(
         &self,
         start: MeshPoint,
         guide: &Guide,
@@ -109,7 +112,7 @@ impl<'a> Walker<'a> {
     }
 
     /// The place at a distance straight ahead, and the direction there; none where the surface ends before.
-    pub(super) fn ahead(
+    pub fn ahead(
         &self,
         start: MeshPoint,
         direction: DVec3,
@@ -136,7 +139,7 @@ impl<'a> Walker<'a> {
 
     /// Adds the way on the surface to a near place to the last run of pieces. Where no way leads over an edge between them, that run ends
     /// there, and a new one begins on its other side.
-    pub(super) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
+    pub(crate) fn go(&self, from: MeshPoint, to: MeshPoint, runs: &mut Vec<Vec<StraightPiece>>) {
         let (ahead, arrives) = self.path_to(from, to);
         let run = runs.last_mut();
         match run {
@@ -278,7 +281,7 @@ impl<'a> Walker<'a> {
     }
 
     /// Rounds pieces to segments and appends them, without those too short to matter.
-    pub(super) fn append(
+    pub(crate) fn append(
         &self,
         pieces: Vec<StraightPiece>,
         course: Course,
@@ -308,7 +311,7 @@ impl<'a> Walker<'a> {
     }
 
     /// A piece of a triangle with the shading normal at its middle.
-    pub(super) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
+    pub(crate) fn segment(&self, start_m: DVec3, end_m: DVec3, triangle: u32) -> Segment {
         let middle = MeshPoint {
             triangle,
             point_m: (start_m + end_m) / 2.0,
@@ -322,7 +325,7 @@ impl<'a> Walker<'a> {
     }
 
     /// The shading normal.
-    pub(super) fn normal(&self, at: &MeshPoint) -> DVec3 {
+    pub fn normal(&self, at: &MeshPoint) -> DVec3 {
         let corners_m = self.mesh.corners_m(at.triangle as usize);
         let facet_normal = facet::normal(corners_m);
         let weights = facet::barycentric(corners_m, facet_normal, at.point_m);
@@ -335,7 +338,7 @@ impl<'a> Walker<'a> {
 }
 
 /// Adds pieces to those that end where they begin.
-pub(super) fn join(pieces: &mut Vec<StraightPiece>, ahead: Vec<StraightPiece>) {
+pub(crate) fn join(pieces: &mut Vec<StraightPiece>, ahead: Vec<StraightPiece>) {
     let mut ahead = ahead.into_iter();
     if let (Some(last), Some(first)) = (pieces.last_mut(), ahead.as_slice().first())
         && last.continues_straight(first)

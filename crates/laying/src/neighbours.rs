@@ -5,7 +5,7 @@ use hairline_scene::Mesh;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::facet::Facet;
+use crate::facet::Facet;
 
 /// Vertices this near to each other are one, relative to the mesh's diagonal: seams of texture coordinates and normals, and
 /// borders between primitives, hold the same point twice, give or take a rounding.
@@ -16,10 +16,10 @@ const NONE: u32 = u32::MAX;
 
 /// Triangle beyond each edge of each triangle, and the number of the shared edge in that triangle.
 #[derive(Debug)]
-pub(super) struct Neighbours(Vec<[u32; 3]>);
+pub(crate) struct Neighbours(Vec<[u32; 3]>);
 
 impl Neighbours {
-    pub(super) fn new(mesh: &Mesh) -> Self {
+    pub(crate) fn new(mesh: &Mesh) -> Self {
         let mut beyond = vec![[NONE; 3]; mesh.triangles.len()];
         each_bend(mesh, |bend| {
             if bend.normals[0].dot(bend.normals[1]) >= CREASE_COS {
@@ -30,7 +30,7 @@ impl Neighbours {
     }
 
     /// The triangle beyond an edge and its own number for the edge; `None` at a boundary and at a crease.
-    pub(super) fn across_edge(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
+    pub(crate) fn across_edge(&self, triangle: u32, edge: usize) -> Option<(u32, usize)> {
         match self.0[triangle as usize][edge] {
             NONE => None,
             other => Some((other / 4, other as usize % 4)),
@@ -39,7 +39,7 @@ impl Neighbours {
 }
 
 /// An edge of a triangle with the triangle beyond it.
-pub(super) struct Bend {
+pub(crate) struct Bend {
     /// Four times the triangle's index, plus that of the edge.
     half_edge: u32,
     /// Half edge of the triangle beyond, numbered alike.
@@ -50,7 +50,7 @@ pub(super) struct Bend {
 
 impl Bend {
     /// The ends of the edge, in the triangle's own order.
-    pub(super) fn ends_m(&self, mesh: &Mesh) -> [DVec3; 2] {
+    pub(crate) fn ends_m(&self, mesh: &Mesh) -> [DVec3; 2] {
         let corners_m = mesh.corners_m(self.half_edge as usize / 4);
         let edge = self.half_edge as usize % 4;
         [corners_m[edge], corners_m[(edge + 1) % 3]]
@@ -58,7 +58,7 @@ impl Bend {
 }
 
 /// All edges that a triangle has with another one, each from both sides.
-pub(super) fn each_bend(mesh: &Mesh, mut bend: impl FnMut(Bend)) {
+pub(crate) fn each_bend(mesh: &Mesh, mut bend: impl FnMut(Bend)) {
     let welded = welded(mesh);
     let normals: Vec<DVec3> = (0..mesh.triangles.len() as u32)
         .into_par_iter()
@@ -144,15 +144,7 @@ fn welded(mesh: &Mesh) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Shape;
-    use crate::shape;
-    use glam::DMat4;
-
-    fn mesh(shape: &Shape) -> Mesh {
-        let mut mesh = Mesh::default();
-        shape::surface(shape).bake(&DMat4::IDENTITY, 0, &mut mesh);
-        mesh
-    }
+    use crate::test_meshes::mesh;
 
     fn open_edges(mesh: &Mesh) -> usize {
         Neighbours::new(mesh)
@@ -165,19 +157,18 @@ mod tests {
 
     #[test]
     fn seams_are_closed_and_boundaries_open() {
-        assert_eq!(open_edges(&mesh(&Shape::Sphere { radius_m: 0.3 })), 0);
-        assert_eq!(open_edges(&mesh(&Shape::Disk { radius_m: 0.3 })), 256);
-        assert_eq!(open_edges(&mesh(&Shape::Plane { size_m: [1.0; 2] })), 4);
+        assert_eq!(open_edges(&mesh("sphere = { radius_m = 0.3 }")), 0);
+        assert_eq!(open_edges(&mesh("disk = { radius_m = 0.3 }")), 256);
+        assert_eq!(open_edges(&mesh("plane = { size_m = [1.0, 1.0] }")), 4);
     }
 
     #[test]
     fn creases_are_open() {
         let bend = |rise: f64| {
-            open_edges(&mesh(&Shape::Lathe {
-                profile_m: vec![[0.01, 0.0], [0.02, 0.0], [0.03, rise]],
-                segments: 64,
-                smooth: false,
-            }))
+            let profile = format!("[[0.01, 0.0], [0.02, 0.0], [0.03, {rise}]]");
+            open_edges(&mesh(&format!(
+                "lathe = {{ profile_m = {profile}, segments = 64 }}"
+            )))
         };
         // Two rims of 64 edges; the 63.4 degree bend adds both sides of another ring.
         assert_eq!(bend(0.01), 128);
@@ -186,7 +177,7 @@ mod tests {
 
     #[test]
     fn the_two_sides_of_a_closed_sheet_keep_apart() {
-        let mut sheet = mesh(&Shape::Plane { size_m: [1.0; 2] });
+        let mut sheet = mesh("plane = { size_m = [1.0, 1.0] }");
         for i in 0..2 {
             let [a, b, c] = sheet.triangles[i];
             sheet.triangles.push([a, c, b]);

@@ -3,14 +3,14 @@
 use glam::DVec3;
 use hairline_scene::Segment;
 
-use super::walk::{Course, Walker};
+use crate::walk::{Course, Walker};
 
 /// Parts of a segment that are taken away, from 0 to 1.
-pub(super) type RemovedParts = Vec<[f64; 2]>;
+pub type RemovedParts = Vec<[f64; 2]>;
 
 /// Returns the remaining parts in runs of joined segments; `None` where nothing is taken away. `removed` adds the parts of a
 /// segment to be taken away.
-pub(super) fn rest(
+pub fn remaining_runs(
     walker: &Walker,
     course: Course,
     segments: &[Segment],
@@ -92,7 +92,7 @@ fn part(walker: &Walker, segment: &Segment, [from, to]: [f64; 2]) -> Option<Segm
 }
 
 /// Interval of t in which |offset + t span| is below the radius.
-pub(super) fn ball(offset: DVec3, span: DVec3, radius_m: f64) -> Option<[f64; 2]> {
+pub fn ball(offset: DVec3, span: DVec3, radius_m: f64) -> Option<[f64; 2]> {
     let outside = offset.length_squared() - radius_m * radius_m;
     let squared = span.length_squared();
     // Also where nothing changes along the span, but for rounding.

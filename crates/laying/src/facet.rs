@@ -6,7 +6,8 @@ use hairline_scene::Mesh;
 
 /// A triangle with the values for walking across it. Edge i runs from corner i to corner i + 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Facet {
+pub struct Facet {
+    /// Corners of the triangle.
     pub corners_m: [DVec3; 3],
     /// Unit, to the side that sees the corners counter-clockwise.
     pub normal: DVec3,
@@ -18,7 +19,7 @@ pub(super) struct Facet {
 
 /// A piece of a circle, or a straight line, in the plane of a facet.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arc {
+pub(crate) struct Arc {
     pub start_m: DVec3,
     /// Unit tangent at the start, in the facet's plane.
     pub direction: DVec3,
@@ -29,7 +30,8 @@ pub(super) struct Arc {
 }
 
 impl Facet {
-    pub(super) fn new(mesh: &Mesh, triangle: u32) -> Self {
+    /// The triangle of a mesh.
+    pub fn new(mesh: &Mesh, triangle: u32) -> Self {
         let corners_m = mesh.corners_m(triangle as usize);
         let [a, b, c] = corners_m;
         let normal = normal(corners_m);
@@ -43,17 +45,17 @@ impl Facet {
     }
 
     /// The part of a direction in the facet's plane; not a unit vector.
-    pub(super) fn in_plane(&self, direction: DVec3) -> DVec3 {
+    pub fn in_plane(&self, direction: DVec3) -> DVec3 {
         direction - self.normal * direction.dot(self.normal)
     }
 
     /// A unit direction in the plane, by its angle from the first edge.
-    pub(super) fn direction(&self, angle_rad: f64) -> DVec3 {
+    pub fn direction(&self, angle_rad: f64) -> DVec3 {
         let (sin, cos) = libm::sincos(angle_rad);
         self.along[0] * cos + self.inward[0] * sin
     }
 
-    pub(super) fn arc(&self, start_m: DVec3, direction: DVec3, curvature_per_m: f64) -> Arc {
+    pub(crate) fn arc(&self, start_m: DVec3, direction: DVec3, curvature_per_m: f64) -> Arc {
         Arc {
             start_m,
             direction,
@@ -63,7 +65,7 @@ impl Facet {
     }
 
     /// Whether a direction at a point of `edge` leads into the facet, by more than rounding.
-    pub(super) fn is_inward(&self, direction: DVec3, edge: usize) -> bool {
+    pub(crate) fn is_inward(&self, direction: DVec3, edge: usize) -> bool {
         direction.dot(self.inward[edge]) > 1e-9
     }
 
@@ -73,7 +75,7 @@ impl Facet {
     /// With v = tan(curvature s / 2) / curvature, the height above an edge is zero where
     /// (h c + 2 b) c v^2 + 2 a v + h = 0; h the height at the start, a and b the inward parts of direction and left, c the
     /// curvature. It stays a quadratic as c goes to 0, when v becomes s / 2.
-    pub(super) fn exit(&self, arc: &Arc, entry: Option<usize>) -> Option<(f64, usize)> {
+    pub(crate) fn exit(&self, arc: &Arc, entry: Option<usize>) -> Option<(f64, usize)> {
         let c = arc.curvature_per_m;
         let mut first: Option<(f64, usize)> = None;
         for edge in 0..3 {
@@ -109,7 +111,7 @@ impl Facet {
 
     /// Place of a point on an edge, as a share of the edge's length, kept off the corners, so that a walk always knows its
     /// next triangle. The shift of 1e-6 of an edge is far below a wavelength for edges up to decimetres.
-    pub(super) fn share_of_edge(&self, edge: usize, point_m: DVec3) -> f64 {
+    pub(crate) fn share_of_edge(&self, edge: usize, point_m: DVec3) -> f64 {
         const OFF_CORNER: f64 = 1e-6;
         let from = self.corners_m[edge];
         let to = self.corners_m[(edge + 1) % 3];
@@ -117,13 +119,13 @@ impl Facet {
         share.clamp(OFF_CORNER, 1.0 - OFF_CORNER)
     }
 
-    pub(super) fn point_on_edge(&self, edge: usize, share: f64) -> DVec3 {
+    pub(crate) fn point_on_edge(&self, edge: usize, share: f64) -> DVec3 {
         self.corners_m[edge].lerp(self.corners_m[(edge + 1) % 3], share)
     }
 
     /// Carries a direction over the edge `edge` into the `next` facet, whose edge `next_edge` is the same: as a straight
     /// line goes on if both facets are unfolded into one plane.
-    pub(super) fn unfold(
+    pub(crate) fn unfold(
         &self,
         direction: DVec3,
         edge: usize,
@@ -137,7 +139,7 @@ impl Facet {
     }
 
     /// Distance of a point from the facet: 0 within it.
-    pub(super) fn distance_m(&self, point_m: DVec3) -> f64 {
+    pub(crate) fn distance_m(&self, point_m: DVec3) -> f64 {
         let offset = point_m - self.corners_m[0];
         let below = (0..3).map(|e| -(point_m - self.corners_m[e]).dot(self.inward[e]));
         below.fold(offset.dot(self.normal).abs(), f64::max)
@@ -145,12 +147,12 @@ impl Facet {
 }
 
 /// Unit, to the side that sees the corners counter-clockwise.
-pub(super) fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+pub fn normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
 /// Barycentric coordinates of a point in the plane of a triangle, clamped to the triangle.
-pub(super) fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) -> [f64; 3] {
+pub fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) -> [f64; 3] {
     let area = (b - a).cross(c - a).dot(normal);
     let at_b = (c - a).cross(a - point_m).dot(normal) / area;
     let at_c = (b - a).cross(point_m - a).dot(normal) / area;
@@ -161,7 +163,7 @@ pub(super) fn barycentric([a, b, c]: [DVec3; 3], normal: DVec3, point_m: DVec3) 
 
 impl Arc {
     /// The point after a length `s_m`, and the tangent there.
-    pub(super) fn point_and_tangent(&self, s_m: f64) -> (DVec3, DVec3) {
+    pub(crate) fn point_and_tangent(&self, s_m: f64) -> (DVec3, DVec3) {
         let half_turn = self.curvature_per_m * s_m / 2.0;
         let (sin, cos) = libm::sincos(half_turn);
         let sinc = match half_turn.abs() < 1e-9 {
@@ -176,7 +178,7 @@ impl Arc {
 
     /// The length after which the arc passes nearest to a point, less than half a turn ahead or behind, and by how much it
     /// misses.
-    pub(super) fn nearest(&self, point_m: DVec3) -> (f64, f64) {
+    pub(crate) fn nearest(&self, point_m: DVec3) -> (f64, f64) {
         let offset = point_m - self.start_m;
         let (x, y) = (offset.dot(self.direction), offset.dot(self.left));
         let c = self.curvature_per_m;

@@ -10,15 +10,13 @@ use std::f64::consts::PI;
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use crate::description::Distribution;
-
 /// The random numbers of one scratch.
-pub(super) struct Stream(Pcg64);
+pub struct Stream(Pcg64);
 
 impl Stream {
     /// The stream of a scratch: streams with different arguments have nothing to do with each other. `number` tells layers of
     /// one object and one seed apart.
-    pub(super) fn new(seed: u64, number: u64, index: u64) -> Self {
+    pub fn new(seed: u64, number: u64, index: u64) -> Self {
         // PCG's own streams are correlated when their numbers are, so the state is scrambled too.
         let low = mixed(mixed(mixed(seed) ^ number) ^ index);
         let high = mixed(low ^ seed);
@@ -30,13 +28,13 @@ impl Stream {
     }
 
     /// Uniform in [0, 1).
-    pub(super) fn uniform(&mut self) -> f64 {
+    pub fn uniform(&mut self) -> f64 {
         const STEP: f64 = 1.0 / (1u64 << 53) as f64;
         (self.0.next_u64() >> 11) as f64 * STEP
     }
 
     /// Standard normal, by the transform of Box and Muller (1958). At most 8.6 in size.
-    pub(super) fn normal(&mut self) -> f64 {
+    pub fn normal(&mut self) -> f64 {
         // In (0, 1], so that the logarithm is finite.
         let radius = libm::sqrt(-2.0 * libm::log(1.0 - self.uniform()));
         radius * libm::cos(2.0 * PI * self.uniform())
@@ -49,19 +47,6 @@ fn mixed(x: u64) -> u64 {
     let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)
-}
-
-impl Distribution {
-    /// The value that lies `normal` standard deviations from the mean.
-    pub(super) fn normal_at(&self, normal: f64) -> f64 {
-        self.mean + self.spread * normal
-    }
-
-    /// The value whose logarithm lies `normal` standard deviations from the logarithm's mean.
-    pub(super) fn log_normal_at(&self, normal: f64) -> f64 {
-        let log_mean = -self.spread * self.spread / 2.0;
-        self.mean * libm::exp(log_mean + self.spread * normal)
-    }
 }
 
 #[cfg(test)]
@@ -96,23 +81,6 @@ mod tests {
             .sum::<f64>()
             / pairs.len() as f64;
         assert!(correlation.abs() < 0.013, "{correlation}");
-    }
-
-    #[test]
-    fn distributions_have_the_mean_and_spread_they_promise() {
-        let drawn = Distribution {
-            mean: 200.0,
-            spread: 0.4,
-        };
-        let values = first_draws(|stream| drawn.log_normal_at(stream.normal()));
-        let n = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / n;
-        // The standard error is 200 x 0.417 / sqrt(n) = 0.26.
-        assert!((mean - 200.0).abs() < 1.1, "{mean}");
-        let logs: Vec<_> = values.iter().map(|v| v.ln()).collect();
-        let log_mean = logs.iter().sum::<f64>() / n;
-        let variance = logs.iter().map(|l| (l - log_mean).powi(2)).sum::<f64>() / n;
-        assert!((variance.sqrt() - 0.4).abs() < 0.004, "{}", variance.sqrt());
     }
 
     /// Pins the sequence: a change here changes everybody's scratches.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3};
 use hairline_scene::Mesh;
 
-use super::ground::Ground;
-use super::guide::Guide;
-use super::walk::{LONGEST_WAY, MeshPoint};
+use crate::ground::Ground;
+use crate::guide::Guide;
+use crate::walk::{LONGEST_WAY, MeshPoint};
 
 /// A mesh on which ways are measured.
 #[derive(Debug)]

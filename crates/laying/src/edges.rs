@@ -10,7 +10,7 @@ use std::f64::consts::FRAC_PI_2;
 use glam::DVec3;
 use hairline_scene::Mesh;
 
-use super::neighbours::each_bend;
+use crate::neighbours::each_bend;
 
 /// Longest piece of an edge, and width of the cubes in which pieces are merged, as a share of the reach.
 const PIECE: f64 = 0.25;
@@ -21,7 +21,7 @@ const BEHIND_COS: f64 = -0.01;
 
 /// The bends of a mesh, to be summed up about places.
 #[derive(Debug)]
-pub(super) struct Edges {
+pub struct Edges {
     reach_m: f64,
     /// Pieces of edges in cubes as wide as the reach.
     cells: HashMap<[i32; 3], Vec<EdgePiece>>,
@@ -46,7 +46,7 @@ fn cube(point_m: DVec3, width_m: f64) -> [i32; 3] {
 
 impl Edges {
     /// Finds the edges of a mesh; each counts up to `reach_m` from it.
-    pub(super) fn new(mesh: &Mesh, reach_m: f64) -> Self {
+    pub fn new(mesh: &Mesh, reach_m: f64) -> Self {
         let piece_m = PIECE * reach_m;
         // Sums, weighted by the sizes of bends.
         let mut together: HashMap<PieceKey, (f64, EdgePiece)> = HashMap::new();
@@ -99,7 +99,7 @@ impl Edges {
 
     /// Computes how far a place of a facet of this unit normal stands out, from 0 to 1. At a distance d from a straight edge that bends by
     /// an angle it is (1 - d² / reach²)^1.5 times the angle's share of a right one; on a ball whose radius is R, 1.5 reach / R.
-    pub(super) fn prominence(&self, point_m: DVec3, normal: DVec3) -> f64 {
+    pub fn prominence(&self, point_m: DVec3, normal: DVec3) -> f64 {
         let [x, y, z] = cube(point_m, self.reach_m);
         let mut sum_m = 0.0;
         for (dx, dy, dz) in (0..27).map(|i| (i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1)) {
@@ -133,25 +133,18 @@ fn angle_rad([first, second]: [DVec3; 2], axis: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::description::Shape;
-    use crate::shape;
-    use glam::DMat4;
+    use crate::test_meshes::mesh;
     use std::f64::consts::PI;
 
-    fn edges(shape: &Shape, reach_m: f64) -> Edges {
-        let mut mesh = Mesh::default();
-        shape::surface(shape).bake(&DMat4::IDENTITY, 0, &mut mesh);
-        Edges::new(&mesh, reach_m)
+    fn edges(shape: &str, reach_m: f64) -> Edges {
+        Edges::new(&mesh(shape), reach_m)
     }
 
     #[test]
     fn a_right_angle_fades_as_its_closed_form() {
         // The second has its edge rounded: it bends about the middle of a quarter of a circle, so much within the corner.
         for (rounding_m, within_m) in [(0.0, 0.0), (0.001, 0.001 * (1.0 - 2.0 / PI))] {
-            let shape = Shape::Box {
-                size_m: [0.2, 0.2, 0.2],
-                rounding_m,
-            };
+            let shape = format!("box = {{ size_m = [0.2, 0.2, 0.2], rounding_m = {rounding_m} }}");
             let edges = edges(&shape, 0.01);
             for distance_m in [0.002f64, 0.005, 0.008, 0.011] {
                 let point_m = DVec3::new(0.013, 0.1 - distance_m, 0.1);
@@ -169,7 +162,7 @@ mod tests {
 
     #[test]
     fn a_ball_stands_out_by_its_curvature() {
-        let edges = edges(&Shape::Sphere { radius_m: 0.1 }, 0.02);
+        let edges = edges("sphere = { radius_m = 0.1 }", 0.02);
         for direction in [DVec3::X, DVec3::new(0.48, 0.6, 0.64)] {
             let found = edges.prominence(0.1 * direction, direction);
             // 1.5 x 0.02 / 0.1, and what the ball's bend takes off the reach.
@@ -180,11 +173,8 @@ mod tests {
     #[test]
     fn a_hollow_does_not() {
         // A lathe seen from within: a tube's inside, with a corner to its floor.
-        let shape = Shape::Lathe {
-            profile_m: vec![[0.0, 0.0], [0.05, 0.0], [0.05, 0.1]],
-            segments: 128,
-            smooth: false,
-        };
+        let shape =
+            "lathe = { profile_m = [[0.0, 0.0], [0.05, 0.0], [0.05, 0.1]], segments = 128 }";
         let edges = edges(&shape, 0.01);
         assert_eq!(edges.prominence(DVec3::new(0.049, 0.0, 0.0), DVec3::Z), 0.0);
         assert_eq!(
@@ -196,10 +186,7 @@ mod tests {
     #[test]
     fn the_far_side_of_a_sheet_does_not_count() {
         // 2 mm thick, a reach of 10 mm.
-        let shape = Shape::Box {
-            size_m: [0.2, 0.2, 0.002],
-            rounding_m: 0.0,
-        };
+        let shape = "box = { size_m = [0.2, 0.2, 0.002] }";
         let edges = edges(&shape, 0.01);
         let found = edges.prominence(DVec3::new(0.0, 0.095, 0.001), DVec3::Z);
         assert!((found - 0.75f64.powf(1.5)).abs() < 0.02, "{found}");

@@ -1,9 +1,8 @@
-//! Interface of all kinds of layers for laying a scratch.
+//! Sizes of grooves: as lists give them, and as layers draw them.
 
 use hairline_optics::section::Section;
-use hairline_scene::{Profile, Segment};
+use hairline_scene::Profile;
 
-use super::walk::{Course, MeshPoint, Walker};
 use crate::description::Distribution;
 use crate::error::Error;
 
@@ -48,34 +47,6 @@ impl ListedSize {
                 Err(Error::new(key(), format!("found {value}"), right))
             }
         }
-    }
-}
-
-/// The renderers' trees number the segments by 28 bits.
-pub(super) const MOST_SEGMENTS: usize = 1 << 28;
-
-/// Profile and course of a scratch, besides its segments. Its section is the layer's.
-pub(super) struct Groove {
-    pub profile: Profile,
-    pub course: Course,
-}
-
-/// A layer that can lay its scratches one by one, in any order.
-pub(super) trait Laying: Sync {
-    /// Appends the segments of one scratch.
-    fn lay(&self, walker: &Walker, index: u64, segments: &mut Vec<Segment>) -> Groove;
-
-    /// Middle of a scratch, if it has one, where [`Laying::lay`] lays it.
-    fn middle(&self, index: u64) -> Option<MeshPoint>;
-
-    /// Note about what it does not lay.
-    fn note(&self) -> Option<String> {
-        None
-    }
-
-    /// Number of the layer's strokes before a scratch, its own included.
-    fn strokes_before(&self, _index: u64) -> usize {
-        0
     }
 }
 

@@ -12,19 +12,25 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ploc::PlocBuilder;
 use rayon::prelude::*;
 
-use super::cut::{RemovedParts, ball};
-use super::facet::Facet;
-use super::ground::Ground;
-use super::painted::world_points_m;
-use crate::description::{Brush, Stroke};
-use crate::error::Error;
-use crate::loader::Loader;
+use crate::cut::{RemovedParts, ball};
+use crate::facet::Facet;
+use crate::ground::Ground;
 
 /// Number of points that are looked up between two questions whether to give up.
 const TOGETHER: usize = 1024;
 
+/// A stroke of an eraser.
+pub struct ErasingStroke {
+    /// World space; one is a dab.
+    pub points_m: Vec<DVec3>,
+    /// Half of the stroke's width.
+    pub radius_m: f64,
+    /// The stroke's place among all strokes of its layer.
+    pub number: usize,
+}
+
 /// All erasing strokes of a layer.
-pub(super) struct Eraser {
+pub struct Eraser {
     capsules: Vec<Capsule>,
     tree: Bvh2,
 }
@@ -40,21 +46,18 @@ struct Capsule {
 }
 
 impl Eraser {
-    /// `None` where no stroke erases.
+    /// `None` without strokes. `go_on` fails when the caller gives up.
     ///
     /// # Errors
-    /// The caller gave up.
-    pub(super) fn new(
-        loader: &Loader,
-        strokes: &[Stroke],
+    /// Those of `go_on`.
+    pub fn new<E>(
+        strokes: impl Iterator<Item = ErasingStroke>,
         ground: &Ground,
-    ) -> Result<Option<Self>, Error> {
+        go_on: impl Fn() -> Result<(), E>,
+    ) -> Result<Option<Self>, E> {
         let mut capsules = Vec::new();
-        for (i, stroke) in strokes.iter().enumerate() {
-            if stroke.brush != Brush::Erase {
-                continue;
-            }
-            let mut points_m = world_points_m(stroke, ground);
+        for mut stroke in strokes {
+            let points_m = &mut stroke.points_m;
             if let [only] = points_m[..] {
                 points_m.push(only);
             }
@@ -64,7 +67,7 @@ impl Eraser {
             };
             let mut normals = Vec::with_capacity(points_m.len());
             for some in points_m.chunks(TOGETHER) {
-                loader.go_on()?;
+                go_on()?;
                 normals.par_extend(some.par_iter().map(normal));
             }
             for (ends_m, normals) in points_m.windows(2).zip(normals.windows(2)) {
@@ -72,7 +75,7 @@ impl Eraser {
                     ends_m: [ends_m[0], ends_m[1]],
                     radius_m: stroke.radius_m,
                     normals: [normals[0], normals[1]],
-                    stroke: i,
+                    stroke: stroke.number,
                 });
             }
         }
@@ -91,12 +94,7 @@ impl Eraser {
     }
 
     /// Adds the parts of a segment that are erased, from 0 to 1, of a scratch that `strokes_before` strokes came before.
-    pub(super) fn erased(
-        &self,
-        segment: &Segment,
-        strokes_before: usize,
-        parts: &mut RemovedParts,
-    ) {
+    pub fn erased(&self, segment: &Segment, strokes_before: usize, parts: &mut RemovedParts) {
         let [start, end] = [segment.start_m, segment.end_m].map(|p| p.as_dvec3());
         let normal = segment.normal.as_dvec3();
         let bounds = Aabb::from_points(&[segment.start_m.into(), segment.end_m.into()]);

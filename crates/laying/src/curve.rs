@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::guide::chord_length_m;
+use crate::guide::chord_length_m;
 
 /// Sweeps after which the derivatives of a spline are exact: each halves their error at least.
 const SWEEPS: usize = 50;
@@ -14,16 +14,16 @@ const MOST_HALVINGS: u32 = 16;
 
 /// A cubic Bezier curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cubic(pub [DVec3; 4]);
+pub struct Cubic(pub [DVec3; 4]);
 
 impl Cubic {
-    pub(super) fn middle(&self) -> DVec3 {
+    pub(crate) fn middle(&self) -> DVec3 {
         let [a, b, c, d] = self.0;
         (a + 3.0 * (b + c) + d) / 8.0
     }
 
     /// Adds points that are joined by straight pieces like those of an arc, and no longer than `longest_m`. The first one is left out.
-    pub(super) fn flatten(&self, longest_m: f64, points_m: &mut Vec<DVec3>) {
+    pub(crate) fn flatten(&self, longest_m: f64, points_m: &mut Vec<DVec3>) {
         self.halve(longest_m, MOST_HALVINGS, points_m);
     }
 
@@ -63,7 +63,7 @@ impl Cubic {
 }
 
 /// The spline through points, of which no two in a row are alike; closed, it leads from the last one to the first.
-pub(super) fn spline(points_m: &[DVec3], is_closed: bool) -> Vec<Cubic> {
+pub(crate) fn spline(points_m: &[DVec3], is_closed: bool) -> Vec<Cubic> {
     let count = points_m.len();
     let spans = if is_closed { count } else { count - 1 };
     let ends = |i: usize| (points_m[i], points_m[(i + 1) % count]);
