@@ -185,19 +185,7 @@ impl<'a> Work<'a> {
                     scene.notes.push(note.clone());
                 }
             }
-            scene.objects.push(Object {
-                name: object.name.clone(),
-                // A hidden object keeps its place in the list, without triangles.
-                mesh: match object.hidden {
-                    true => no_mesh(),
-                    false => surface.mesh.clone(),
-                },
-                scratches: Arc::default(),
-                segments: Arc::default(),
-                parts: surface.parts.clone(),
-                gratings: Vec::new(),
-                is_lamp: false,
-            });
+            scene.objects.push(bare_object(object, &surface));
             surfaces.push(surface);
         }
         self.gratings(scene, &surfaces, &mut textures)?;
@@ -346,6 +334,23 @@ impl<'a> Work<'a> {
         self.loader.report(Stage::Environment, 1, 1);
         let up = self.description.camera.world_up();
         Ok(Some(convert::environment(described, map, up)))
+    }
+}
+
+/// An object before anything is laid on it.
+fn bare_object(object: &description::Object, surface: &KeptSurface) -> Object {
+    Object {
+        name: object.name.clone(),
+        // A hidden object keeps its place in the list, without triangles.
+        mesh: match object.hidden {
+            true => no_mesh(),
+            false => surface.mesh.clone(),
+        },
+        scratches: Arc::default(),
+        segments: Arc::default(),
+        parts: surface.parts.clone(),
+        gratings: Vec::new(),
+        is_lamp: false,
     }
 }
 

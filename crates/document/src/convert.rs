@@ -148,6 +148,30 @@ impl description::Grating {
         mask: Option<usize>,
         directions: Option<usize>,
     ) -> Grating {
+        let (field, jitter_deg) = self.field(world_from_object, directions);
+        Grating {
+            row: Row {
+                pitch_um: self.pitch_um,
+                width_um: self.width_um,
+                depth_nm: self.depth_nm.mean,
+                depth_spread: self.depth_nm.spread,
+                jitter_um: self.jitter_um,
+            },
+            field,
+            angle_std_rad: jitter_deg.to_radians(),
+            coverage: self.coverage,
+            radii_m: self.radius_m.unwrap_or([0.0, f64::INFINITY]),
+            mask: mask.map(|texture| GroovePicture {
+                texture,
+                lie: PictureLie::new(self.tile_m, world_from_object),
+            }),
+            seed: (self.seed ^ (self.seed >> 32)) as u32,
+            is_rigorous: self.theory == GratingTheory::Rigorous,
+        }
+    }
+
+    /// The field of its grooves in world space, and its `jitter_deg`. `directions` is the texture that turns a field by coordinates.
+    fn field(&self, world_from_object: &DMat4, directions: Option<usize>) -> (GrooveField, f64) {
         let direction = |direction: [f64; 3]| {
             let direction = world_from_object.transform_vector3(direction.into());
             direction.normalize_or_zero()
@@ -162,7 +186,7 @@ impl description::Grating {
         };
         let center_m = self.center_m.unwrap_or_default();
         let center_m = world_from_object.transform_point3(center_m.into());
-        let (field, jitter_deg) = match &self.pattern {
+        match &self.pattern {
             GroovePattern::Circular(axis) => around(axis, Bearing::Circular),
             GroovePattern::Radial(axis) => around(axis, Bearing::Radial),
             GroovePattern::Spun {
@@ -176,14 +200,11 @@ impl description::Grating {
                 around: spots,
                 spacing_m,
             } => {
-                // The object's x axis, or y where the axis is nearly x; across the axis in the world, whatever the scales.
                 let axis = direction(spots.axis);
-                let [x, y] = [direction([1.0, 0.0, 0.0]), direction([0.0, 1.0, 0.0])];
-                let along = if axis.dot(x).abs() > 0.9 { y } else { x };
                 let field = GrooveField::Spots {
                     axis,
                     center_m: world_from_object.transform_point3(spots.center_m.into()),
-                    along_row: along.reject_from(axis).normalize_or_zero(),
+                    along_row: across(axis, direction),
                     spacing_m: *spacing_m,
                 };
                 (field, spots.jitter_deg)
@@ -208,27 +229,15 @@ impl description::Grating {
                 };
                 (GrooveField::ByUv { uv, center_m }, *jitter_deg)
             }
-        };
-        Grating {
-            row: Row {
-                pitch_um: self.pitch_um,
-                width_um: self.width_um,
-                depth_nm: self.depth_nm.mean,
-                depth_spread: self.depth_nm.spread,
-                jitter_um: self.jitter_um,
-            },
-            field,
-            angle_std_rad: jitter_deg.to_radians(),
-            coverage: self.coverage,
-            radii_m: self.radius_m.unwrap_or([0.0, f64::INFINITY]),
-            mask: mask.map(|texture| GroovePicture {
-                texture,
-                lie: PictureLie::new(self.tile_m, world_from_object),
-            }),
-            seed: (self.seed ^ (self.seed >> 32)) as u32,
-            is_rigorous: self.theory == GratingTheory::Rigorous,
         }
     }
+}
+
+/// The object's x axis, or y where the axis is nearly x; across the axis in the world, whatever the scales.
+fn across(axis: DVec3, direction_in_world: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
+    let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(direction_in_world);
+    let along = if axis.dot(x).abs() > 0.9 { y } else { x };
+    along.reject_from(axis).normalize_or_zero()
 }
 
 impl description::Object {

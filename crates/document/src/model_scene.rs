@@ -10,13 +10,12 @@ use hairline_scene::Mesh;
 use hairline_sky::BuiltInMap;
 
 use crate::description::{
-    Camera, Description, Environment, Map, Object, Render, Studio, Surface, Up,
+    Camera, Description, Environment, Light, Map, Object, Render, Studio, Surface, Up,
 };
 use crate::error::Error;
 use crate::framing::framing;
 use crate::gltf_scene;
 use crate::probe;
-use crate::probe::ProbedMesh;
 use crate::scratch_studio::{DARK_GROUND, Subject};
 use crate::wear::Wear;
 
@@ -64,91 +63,43 @@ impl Description {
 
     /// A scene around a model.
     fn from_plain_model(path: &FilePath) -> Result<Self, Error> {
-        let ProbedMesh {
-            mesh,
-            materials,
-            textures,
-            summary,
-        } = probe::read_mesh(path)?;
+        let probed = probe::read_mesh(path)?;
         let name = path
             .file_name()
             .map_or_else(|| path.to_path_buf(), PathBuf::from);
+        let shown_name = shown(&name.to_string_lossy());
+        let summary = &probed.summary;
         let mut notes = Vec::new();
-        let (mut factor, mut fit_m) = (1.0, None);
-        let extent_m = summary.extent_m();
-        if !SIZES_M.contains(&extent_m) {
-            (factor, fit_m) = (SHOWN_M / extent_m, Some(SHOWN_M));
-            notes.push(format!(
-                "{} is {} large; it is shown {SHOWN_M} m large (`fit_m`), so that its scratches are seen",
-                shown(&name.to_string_lossy()),
-                metres(extent_m)
-            ));
-        }
-        if summary.moved_from.is_some() {
-            // Fitted models are moved.
-            fit_m.get_or_insert(extent_m);
-        }
-        // Rotation from y up to z up.
-        let turned = |p: DVec3| factor * DVec3::new(p.x, -p.z, p.y);
-        let from_middle = |p: DVec3| turned(p - summary.moved_from.unwrap_or(DVec3::ZERO));
-        let lights = mesh_file::lights(path)
-            .map_err(|flaw| Error::new("", flaw.found, flaw.right).with_position(path, None))?;
-        let mut lamps = Vec::new();
-        for (i, light) in lights.iter().enumerate() {
-            match lights::lamp(light, extent_m, factor, [&turned, &from_middle]) {
-                Ok(lamp) => lamps.push(lamp),
-                Err(why) => {
-                    let file = shown(&name.to_string_lossy());
-                    let light = light.name.as_deref().map_or_else(|| i.to_string(), shown);
-                    notes.push(format!("{file}: light {light} left out; {why}"));
-                }
-            }
-        }
+        let fit = Fit::new(summary, &shown_name, &mut notes);
+        let mut lamps = own_lamps(path, &fit, &shown_name, &mut notes)?;
         let is_metal = summary.metal_share > 0.5;
         if summary.metal_share > 0.0 && !is_metal {
             notes.push(format!(
-                "{}: at most half of its triangles are of metal, so no wear is laid on it; `--wear worn` lays it on all of them",
-                shown(&name.to_string_lossy())
+                "{shown_name}: at most half of its triangles are of metal, so no wear is laid on it; `--wear worn` lays it on all of them",
             ));
         }
-        let (least, most) = summary.bounds_m;
-        let upright = |p: Vec3| turned(p.as_dvec3());
-        let [a, b] = [least, most].map(upright);
-        let points_m: Vec<_> = summary
-            .extreme_points_m
-            .iter()
-            .copied()
-            .map(upright)
-            .collect();
+        let upright = |p: &Vec3| fit.turned(p.as_dvec3());
+        let [a, b] = <[Vec3; 2]>::from(summary.bounds_m).map(|corner| upright(&corner));
+        let points_m: Vec<_> = summary.extreme_points_m.iter().map(upright).collect();
         let render = Render::default();
-        let stem = path
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned());
-        let object = stem
-            .filter(|stem| !stem.is_empty())
-            .unwrap_or_else(|| "model".to_owned());
         let camera = camera(&points_m, render.size_px);
         let environment = match lamps.is_empty() {
             true => {
-                let mesh = in_scene(mesh, factor);
+                let mesh = in_scene(probed.mesh, fit.factor);
                 let subject = Subject {
                     meshes: &[&mesh],
                     count: 1,
-                    materials: &materials,
-                    textures: &textures,
+                    materials: &probed.materials,
+                    textures: &probed.textures,
                 };
                 lamps = subject.lights(&camera, render.size_px);
                 Environment::dark_room()
             }
             // The model has lights of its own, but their strength is unknown, so the studio's map lights it as
             // well.
-            false => Environment {
-                map: Map::BuiltIn(BuiltInMap::Studio),
-                rotation_deg: STUDIO_ROTATION_DEG,
-                intensity: STUDIO_INTENSITY,
-                visible: true,
-            },
+            false => studio_map(),
         };
+        let object = object(path, &name, fit.fit_m);
         Ok(Self {
             camera,
             render,
@@ -159,28 +110,115 @@ impl Description {
             materials: Vec::new(),
             gratings: Vec::new(),
             scratches: match is_metal {
-                true => Wear::Worn.layers(&object, a.distance(b)),
+                true => Wear::Worn.layers(&object.name, a.distance(b)),
                 false => Vec::new(),
             },
-            objects: vec![Object {
-                name: object,
-                surface: Surface::Mesh(name.clone()),
-                up: Up::Y,
-                fit_m,
-                time_s: None,
-                animation: None,
-                overrides: Vec::new(),
-                material: None,
-                translation_m: [0.0; 3],
-                rotation_deg: [0.0; 3],
-                scale: [1.0; 3],
-                hidden: false,
-            }],
+            objects: vec![object],
             lights: lamps,
             looks: Vec::new(),
             lights_of: Some(name),
             notes,
         })
+    }
+}
+
+/// How a model stands in its scene: upright, and at a size at which scratches can be seen.
+struct Fit {
+    /// Largest extent of the model in its file.
+    extent_m: f64,
+    /// What its lengths are multiplied by.
+    factor: f64,
+    /// `fit_m` of its object.
+    fit_m: Option<f64>,
+    /// The point of the file that is moved to the origin.
+    middle_m: DVec3,
+}
+
+impl Fit {
+    fn new(summary: &probe::MeshSummary, shown_name: &str, notes: &mut Vec<String>) -> Self {
+        let (mut factor, mut fit_m) = (1.0, None);
+        let extent_m = summary.extent_m();
+        if !SIZES_M.contains(&extent_m) {
+            (factor, fit_m) = (SHOWN_M / extent_m, Some(SHOWN_M));
+            notes.push(format!(
+                "{shown_name} is {} large; it is shown {SHOWN_M} m large (`fit_m`), so that its scratches are seen",
+                metres(extent_m)
+            ));
+        }
+        if summary.moved_from.is_some() {
+            // Fitted models are moved.
+            fit_m.get_or_insert(extent_m);
+        }
+        Self {
+            extent_m,
+            factor,
+            fit_m,
+            middle_m: summary.moved_from.unwrap_or(DVec3::ZERO),
+        }
+    }
+
+    /// From y up to z up.
+    fn turned(&self, p: DVec3) -> DVec3 {
+        self.factor * DVec3::new(p.x, -p.z, p.y)
+    }
+
+    /// A point of the file as the scene has it.
+    fn from_middle(&self, p: DVec3) -> DVec3 {
+        self.turned(p - self.middle_m)
+    }
+}
+
+/// The lights of a model's file; a note tells why one is left out.
+fn own_lamps(
+    path: &FilePath,
+    fit: &Fit,
+    shown_name: &str,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Light>, Error> {
+    let lights = mesh_file::lights(path)
+        .map_err(|flaw| Error::new("", flaw.found, flaw.right).with_position(path, None))?;
+    let mut lamps = Vec::new();
+    for (i, light) in lights.iter().enumerate() {
+        match lights::lamp(light, fit) {
+            Ok(lamp) => lamps.push(lamp),
+            Err(why) => {
+                let light = light.name.as_deref().map_or_else(|| i.to_string(), shown);
+                notes.push(format!("{shown_name}: light {light} left out; {why}"));
+            }
+        }
+    }
+    Ok(lamps)
+}
+
+fn studio_map() -> Environment {
+    Environment {
+        map: Map::BuiltIn(BuiltInMap::Studio),
+        rotation_deg: STUDIO_ROTATION_DEG,
+        intensity: STUDIO_INTENSITY,
+        visible: true,
+    }
+}
+
+/// The object of a model, named after its file.
+fn object(path: &FilePath, name: &Path, fit_m: Option<f64>) -> Object {
+    let stem = path
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned());
+    Object {
+        name: stem
+            .filter(|stem| !stem.is_empty())
+            .unwrap_or_else(|| "model".to_owned()),
+        surface: Surface::Mesh(name.to_owned()),
+        up: Up::Y,
+        fit_m,
+        time_s: None,
+        animation: None,
+        overrides: Vec::new(),
+        material: None,
+        translation_m: [0.0; 3],
+        rotation_deg: [0.0; 3],
+        scale: [1.0; 3],
+        hidden: false,
     }
 }
 

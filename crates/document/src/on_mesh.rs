@@ -1,6 +1,6 @@
 //! Scratches on a mesh in memory, without a scene about it: what other engines ask for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
@@ -11,6 +11,7 @@ use hairline_scene::{Mesh, Object};
 use crate::arrays::{Arrays, MeshArrays};
 use crate::description::{self, Layer, standings};
 use crate::error::Error;
+use crate::grey_map::GreyMap;
 use crate::loader::Loader;
 use crate::scratches::{PlaceInputs, Table, lay, put_together};
 
@@ -44,13 +45,7 @@ pub fn lay_on_mesh(
         refuse_parts(layer, arrays, &key)?;
         let picture = |name: &str, file: &Option<PathBuf>| {
             let key_path = format!("{key}.where.{name}");
-            let read = file.as_ref();
-            let known = read.map(|file| {
-                let found = format!("found the file \"{}\"", file.display());
-                let right = "must be the name of a picture in memory";
-                let picture = arrays.picture(file).cloned();
-                picture.ok_or_else(|| Error::new(key_path, found, right))
-            });
+            let known = file.as_ref().map(|file| picture(arrays, file, key_path));
             known.transpose()
         };
         tables.push(Table {
@@ -83,6 +78,14 @@ pub fn lay_on_mesh(
         parts: Arc::default(),
         gratings: Vec::new(),
         is_lamp: false,
+    })
+}
+
+/// A picture in memory. `key_path` is where it is named.
+fn picture(arrays: &Arrays, file: &Path, key_path: String) -> Result<Arc<GreyMap>, Error> {
+    arrays.picture(file).cloned().ok_or_else(|| {
+        let found = format!("found the file \"{}\"", file.display());
+        Error::new(key_path, found, "must be the name of a picture in memory")
     })
 }
 
@@ -135,7 +138,6 @@ fn refuse_parts(layer: &description::Scratches, arrays: &Arrays, key: &str) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[test]
     fn what_is_wrong_is_told_by_its_key() {

@@ -205,13 +205,10 @@ impl<'a> Walker<'a> {
             let arc = facet.arc(spot.point_m, aim.direction, aim.curvature_per_m);
             // Up to a quarter of a turn, well within what `exit` and `nearest` can tell.
             let quarter_turn_m = std::f64::consts::FRAC_PI_2 / aim.curvature_per_m.abs();
-            let mut reach_m = aim.reach_m.min(left_m).min(quarter_turn_m);
-            let exit = facet
-                .exit(&arc, entry)
-                .filter(|(exit_m, _)| *exit_m <= reach_m);
-            if let Some((exit_m, _)) = exit {
-                reach_m = exit_m;
-            }
+            let most_m = aim.reach_m.min(left_m).min(quarter_turn_m);
+            let exit = facet.exit(&arc, entry);
+            let exit = exit.filter(|(exit_m, _)| *exit_m <= most_m);
+            let reach_m = exit.map_or(most_m, |(exit_m, _)| exit_m);
             let walked_m = length_m - left_m;
             if spot.triangle == start.triangle
                 && let Some(along_m) = closes(&arc, start, start_direction, walked_m, reach_m)
@@ -238,19 +235,15 @@ impl<'a> Walker<'a> {
                 entry = None;
                 continue;
             };
-            let Some((triangle, next_edge)) = self.neighbours.across_edge(spot.triangle, edge)
-            else {
+            let across = self.neighbours.across_edge(spot.triangle, edge);
+            let Some((triangle, next_edge)) = across else {
                 break;
             };
             let next = Facet::new(self.mesh, triangle);
             let share = 1.0 - facet.share_of_edge(edge, point_m);
             heading = Some(facet.unfold(direction, edge, &next, next_edge));
-            spot = MeshPoint {
-                triangle,
-                point_m: next.point_on_edge(next_edge, share),
-            };
-            facet = next;
-            entry = Some(next_edge);
+            let point_m = next.point_on_edge(next_edge, share);
+            (spot, facet, entry) = (MeshPoint { triangle, point_m }, next, Some(next_edge));
         }
         (pieces, Course::Open)
     }

@@ -136,11 +136,8 @@ impl KeptSurface {
                     let right = "a mesh in memory has none of its own";
                     return Err(Error::new(key, "`material` is missing", right));
                 }
-                let mut mesh = Mesh::default();
-                if let Some(arrays) = loader.arrays.mesh(file) {
-                    arrays.surface().bake(transform, 0, &mut mesh);
-                }
-                mesh
+                let arrays = loader.arrays.mesh(file);
+                arrays.map_or_else(Mesh::default, |arrays| baked(&arrays.surface(), transform))
             }
             (Surface::Mesh(file), Some(stamp)) => {
                 let mut found = Vec::new();
@@ -161,30 +158,16 @@ impl KeptSurface {
                 notes = model_notes::notes(file, &left_out);
                 notes.extend(found.iter().map(|what| model_notes::note(file, what)));
                 read.map_err(|flaw| {
-                    let found = format!("\"{}\": {}", shown(&file.to_string_lossy()), flaw.found);
+                    let file = shown(&file.to_string_lossy());
+                    let found = format!("\"{file}\": {}", flaw.found);
                     Error::new(format!("{key}.mesh"), found, flaw.right)
                 })?
             }
-            (Surface::Shape(shape), _) => {
-                let mut mesh = Mesh::default();
-                shape::surface(shape).bake(transform, 0, &mut mesh);
-                mesh
-            }
+            (Surface::Shape(shape), _) => baked(&shape::surface(shape), transform),
             (Surface::Mesh(_), None) => unreachable!("a file has a stamp"),
         };
-        if let (true, Surface::Mesh(file), Some(time_s)) =
-            (mesh.triangles.is_empty(), &object.surface, object.time_s)
-        {
-            // Animations hide what they move by a scale of 0.
-            let why = format!("it has no surface at {time_s} s, so it is not seen then");
-            notes.push(model_notes::note(file, &why));
-        } else if mesh.triangles.is_empty() {
-            let found = format!(
-                "found no surface: every triangle of \"{}\" has zero area",
-                shown(&object.name)
-            );
-            let right = "must have triangles that span an area";
-            return Err(Error::new(key, found, right));
+        if mesh.triangles.is_empty() {
+            notes.push(why_it_is_gone(object, key)?);
         }
         Ok(Self {
             key: surface_key,
@@ -260,6 +243,35 @@ impl KeptSurface {
     fn grounds(&self) -> MutexGuard<'_, Grounds> {
         // The list is consistent even after a panic: items are pushed whole.
         self.grounds.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn baked(surface: &hairline_model::surface::Surface, world_from_object: &DMat4) -> Mesh {
+    let mut mesh = Mesh::default();
+    surface.bake(world_from_object, 0, &mut mesh);
+    mesh
+}
+
+/// Note about an object without surface. `key` is its path.
+///
+/// # Errors
+/// It has none at any time.
+fn why_it_is_gone(object: &description::Object, key: &str) -> Result<String, Error> {
+    match (&object.surface, object.time_s) {
+        // Animations hide what they move by a scale of 0.
+        (Surface::Mesh(file), Some(time_s)) => {
+            let why = format!("it has no surface at {time_s} s, so it is not seen then");
+            Ok(model_notes::note(file, &why))
+        }
+        _ => {
+            let name = shown(&object.name);
+            let found = format!("found no surface: every triangle of \"{name}\" has zero area");
+            Err(Error::new(
+                key,
+                found,
+                "must have triangles that span an area",
+            ))
+        }
     }
 }
 

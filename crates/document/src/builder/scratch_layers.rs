@@ -89,11 +89,17 @@ impl<'a> Work<'a> {
                 laid: ground.on_the_whole(laid),
             }));
         }
-        for (i, layer) in layers
-            .iter()
-            .enumerate()
-            .filter(|(_, layer)| layer.is_shown)
-        {
+        self.put_onto_objects(layers, scene)
+    }
+
+    /// Gives the objects of a scene the scratches of their layers.
+    fn put_onto_objects(
+        &mut self,
+        layers: Vec<ScratchLayer>,
+        scene: &mut Scene,
+    ) -> Result<(), Error> {
+        let shown = layers.iter().enumerate().filter(|(_, it)| it.is_shown);
+        for (i, layer) in shown {
             if let Some(note) = layer.laid.as_ref().and_then(|kept| kept.laid.note.as_ref()) {
                 scene.notes.push(format!("scratches[{i}]: {note}"));
             }

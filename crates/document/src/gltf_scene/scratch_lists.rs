@@ -65,19 +65,33 @@ fn write(file: &mut GltfFile, rows: impl Iterator<Item = Row>) -> Value {
     list
 }
 
+/// The number of an accessor that a list names.
+fn number(list: &Value, name: &str) -> Result<usize, Flaw> {
+    let number = list.get(name).and_then(Value::as_u64);
+    number.map(|number| number as usize).ok_or_else(|| {
+        let found = format!("found no `{name}`");
+        Flaw::new(found, "must be the number of an accessor")
+    })
+}
+
+/// The number of the scratch of each piece, as its bytes.
+fn scratches<'a>(file: &'a GltfFile, list: &Value, count: usize) -> Result<&'a [[u8; 4]], Flaw> {
+    let (numbers, _) = file.view(number(list, "scratches_u32")?)?.as_chunks::<4>();
+    match numbers.len() == count {
+        true => Ok(numbers),
+        false => Err(Flaw::new(
+            format!("found {} numbers in `scratches_u32`", numbers.len()),
+            format!("must be one for each of {count} pieces"),
+        )),
+    }
+}
+
 /// The CSV text of a list.
 pub(super) fn read(file: &GltfFile, list: &Value) -> Result<String, Flaw> {
-    let number = |name: &str| {
-        let number = list.get(name).and_then(Value::as_u64);
-        number.map(|number| number as usize).ok_or_else(|| {
-            let found = format!("found no `{name}`");
-            Flaw::new(found, "must be the number of an accessor")
-        })
-    };
-    let starts = file.floats(number("start_m")?, 3)?;
-    let ends = file.floats(number("end_m")?, 3)?;
-    let widths = file.floats(number("width_um")?, 1)?;
-    let depths = file.floats(number("depth_nm")?, 1)?;
+    let starts = file.floats(number(list, "start_m")?, 3)?;
+    let ends = file.floats(number(list, "end_m")?, 3)?;
+    let widths = file.floats(number(list, "width_um")?, 1)?;
+    let depths = file.floats(number(list, "depth_nm")?, 1)?;
     let count = widths.len();
     if starts.len() != 3 * count || ends.len() != 3 * count || depths.len() != count {
         let found = format!(
@@ -94,7 +108,7 @@ pub(super) fn read(file: &GltfFile, list: &Value) -> Result<String, Flaw> {
         .map(|x| f64::from(*x))
         .collect();
     if list.get("ends_f64").is_some() {
-        let (numbers, _) = file.view(number("ends_f64")?)?.as_chunks::<8>();
+        let (numbers, _) = file.view(number(list, "ends_f64")?)?.as_chunks::<8>();
         if numbers.len() != exact.len() {
             let found = format!("found {} numbers in `ends_f64`", numbers.len());
             let right = format!("must be six for each of {count} scratches");
@@ -102,18 +116,10 @@ pub(super) fn read(file: &GltfFile, list: &Value) -> Result<String, Flaw> {
         }
         exact = numbers.iter().map(|it| f64::from_le_bytes(*it)).collect();
     }
-    let mut scratches = None;
-    if list.get("scratches_u32").is_some() {
-        let (numbers, _) = file.view(number("scratches_u32")?)?.as_chunks::<4>();
-        if numbers.len() != count {
-            let found = format!("found {} numbers in `scratches_u32`", numbers.len());
-            return Err(Flaw::new(
-                found,
-                format!("must be one for each of {count} pieces"),
-            ));
-        }
-        scratches = Some(numbers);
-    }
+    let scratches = match list.get("scratches_u32") {
+        Some(_) => Some(scratches(file, list, count)?),
+        None => None,
+    };
     let mut text = list_header(scratches.is_some());
     for (i, ends) in exact.chunks(6).enumerate() {
         text.push('\n');

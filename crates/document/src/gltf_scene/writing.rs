@@ -16,7 +16,7 @@ use hairline_image::FilePath;
 use hairline_model::gltf_file::GltfFile;
 use hairline_model::mesh_file::{self, quarter_turn};
 use hairline_model::reading::{self, FileKind};
-use hairline_scene::ScratchTables;
+use hairline_scene::{Scene, ScratchTables};
 use serde_json::{Map, Value, json};
 
 use super::extension::{EXTENSION, LAID, Named, VERSION, named};
@@ -86,23 +86,7 @@ impl Loader<'_> {
         };
         packed.name(&mut tables, &names)?;
         let files = packed.files;
-        let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
-        let layers = layers.filter(|_| is_laid);
-        for (i, layer) in layers.into_iter().flatten().enumerate() {
-            if let Some(laid) = laid::write(&described, &scene, i, &mut file) {
-                layer[LAID] = laid;
-            }
-        }
-        let gratings = tables.get_mut("grating").and_then(Value::as_array_mut);
-        let mut known = grooves::Known::new();
-        let spectra = LazyCell::new(|| ScratchTables::new(&scene));
-        for (i, grating) in gratings.into_iter().flatten().enumerate() {
-            let known = &mut known;
-            let laid = grooves::write(&described, &scene, &spectra, i, is_laid, known, &mut file);
-            if let Some(laid) = laid {
-                grating[LAID] = laid;
-            }
-        }
+        write_laid(&described, &scene, is_laid, &mut tables, &mut file);
         tables.insert("version".to_owned(), json!(VERSION));
         if !files.is_empty() {
             tables.insert("files".to_owned(), Value::Array(files));
@@ -111,6 +95,32 @@ impl Loader<'_> {
         let bytes = file.to_glb();
         let bytes = bytes.map_err(|flaw| Error::new("", flaw.found, flaw.right))?;
         Ok(Exported { bytes, notes })
+    }
+}
+
+/// Adds scratches as they lie, if `is_laid`, and what gratings send.
+fn write_laid(
+    described: &Description,
+    scene: &Scene,
+    is_laid: bool,
+    tables: &mut Map<String, Value>,
+    file: &mut GltfFile,
+) {
+    let layers = tables.get_mut("scratches").and_then(Value::as_array_mut);
+    let layers = layers.filter(|_| is_laid);
+    for (i, layer) in layers.into_iter().flatten().enumerate() {
+        if let Some(laid) = laid::write(described, scene, i, file) {
+            layer[LAID] = laid;
+        }
+    }
+    let gratings = tables.get_mut("grating").and_then(Value::as_array_mut);
+    let mut known = grooves::Known::new();
+    let spectra = LazyCell::new(|| ScratchTables::new(scene));
+    for (i, grating) in gratings.into_iter().flatten().enumerate() {
+        let known = &mut known;
+        if let Some(laid) = grooves::write(described, scene, &spectra, i, is_laid, known, file) {
+            grating[LAID] = laid;
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use hairline_model::mesh_file::{Punctual, PunctualKind};
 
+use super::Fit;
 use crate::description::{Cone, Light, LightKind, SUN_DEG};
 use crate::schema::{LARGEST_M, SMALLEST_M};
 
@@ -13,18 +14,12 @@ const LAMP_RADIUS: f64 = 0.01;
 /// The extension counts in lumens. Exporters take a watt for as many of them.
 const LUMENS_PER_WATT: f64 = 683.0;
 
-/// Makes a lamp from a light of a model. The model has an extent, in metres of the file, and is shown larger by a factor. `turned` and
-/// `placed` make directions and places of the file upright.
+/// Makes a lamp from a light of a model, which stands in its scene by `fit`.
 ///
 /// # Errors
 /// The reason why there is no lamp.
-pub(super) fn lamp(
-    light: &Punctual,
-    extent: f64,
-    factor: f64,
-    [turned, placed]: [&dyn Fn(DVec3) -> DVec3; 2],
-) -> Result<Light, String> {
-    let towards = turned(light.direction).normalize_or(DVec3::NEG_Z);
+pub(super) fn lamp(light: &Punctual, fit: &Fit) -> Result<Light, String> {
+    let towards = fit.turned(light.direction).normalize_or(DVec3::NEG_Z);
     let watts = light.intensity / LUMENS_PER_WATT;
     let of_kind = |kind: LightKind| Light {
         name: light.name.clone(),
@@ -42,10 +37,10 @@ pub(super) fn lamp(
             irradiance: watts,
         }));
     }
-    let radius = LAMP_RADIUS * extent;
+    let radius = LAMP_RADIUS * fit.extent_m;
     let radiance = watts / (PI * radius * radius);
-    let center_m = placed(light.position);
-    let radius_m = (factor * radius).max(SMALLEST_M);
+    let center_m = fit.from_middle(light.position);
+    let radius_m = (fit.factor * radius).max(SMALLEST_M);
     // A point that is no number does not lie within either.
     if !center_m.abs().cmple(DVec3::splat(LARGEST_M)).all() {
         return Err(format!("it would stand over {LARGEST_M} m off"));
@@ -64,7 +59,7 @@ pub(super) fn lamp(
                 cone_softness: (1.0 - inner_rad / outer_rad.max(1e-9)).clamp(0.0, 1.0),
                 ..Cone::new(
                     cone_deg,
-                    Some((center_m + factor * extent * towards).into()),
+                    Some((center_m + fit.factor * fit.extent_m * towards).into()),
                 )
             })
         }

@@ -65,39 +65,7 @@ impl<'a> Engraving<'a> {
         table: &str,
         base_dir: &FilePath,
     ) -> Result<Self, Error> {
-        let key = format!("{table}.{}", layer.line.key().name);
-        let lines = match &layer.line {
-            Line::Curve { points_m, closed } => {
-                for (i, point) in points_m.iter().enumerate() {
-                    refuse_far(ground, *point, ground.diagonal_m, || format!("{key}[{i}]"))?;
-                }
-                vec![Outline {
-                    cubics: smooth_curve(points_m, *closed, ground),
-                    down: None,
-                }]
-            }
-            Line::Text {
-                text,
-                height_m,
-                center_m,
-                direction,
-            } => {
-                let plate = Plate::new(ground, *center_m, *direction, table)?;
-                let letters = outlines::letters(text, *height_m);
-                letters.iter().flat_map(|it| plate.stamped(it)).collect()
-            }
-            Line::Svg {
-                file,
-                fit_m,
-                center_m,
-                direction,
-            } => {
-                let plate = Plate::new(ground, *center_m, *direction, table)?;
-                let held = loader.arrays.drawing(file);
-                let path = base_dir.join(file);
-                plate.stamped(&outlines::drawing(held, &path, &key, *fit_m)?)
-            }
-        };
+        let lines = outlines(loader, &layer.line, ground, table, base_dir)?;
         let mut runs: Vec<Run> = Vec::new();
         let count = lines.len();
         let mut lines_off = 0;
@@ -207,6 +175,49 @@ impl<'a> Engraving<'a> {
     fn length_m(&self) -> f64 {
         0.5 * self.layer.line_m
     }
+}
+
+/// The lines that are engraved. `table` is the path of the layer.
+fn outlines(
+    loader: &Loader,
+    line: &Line,
+    ground: &Ground,
+    table: &str,
+    base_dir: &FilePath,
+) -> Result<Vec<Outline>, Error> {
+    let key = format!("{table}.{}", line.key().name);
+    Ok(match line {
+        Line::Curve { points_m, closed } => {
+            for (i, point) in points_m.iter().enumerate() {
+                refuse_far(ground, *point, ground.diagonal_m, || format!("{key}[{i}]"))?;
+            }
+            vec![Outline {
+                cubics: smooth_curve(points_m, *closed, ground),
+                down: None,
+            }]
+        }
+        Line::Text {
+            text,
+            height_m,
+            center_m,
+            direction,
+        } => {
+            let plate = Plate::new(ground, *center_m, *direction, table)?;
+            let letters = outlines::letters(text, *height_m);
+            letters.iter().flat_map(|it| plate.stamped(it)).collect()
+        }
+        Line::Svg {
+            file,
+            fit_m,
+            center_m,
+            direction,
+        } => {
+            let plate = Plate::new(ground, *center_m, *direction, table)?;
+            let held = loader.arrays.drawing(file);
+            let path = base_dir.join(file);
+            plate.stamped(&outlines::drawing(held, &path, &key, *fit_m)?)
+        }
+    })
 }
 
 /// Number of scratches in a line.

@@ -11,6 +11,7 @@ use hairline_model::text::shown;
 use hairline_scene::{Profile, Segment};
 use rayon::prelude::*;
 
+use super::off_object::at_most;
 use super::sizes::LISTED_SIZES;
 use crate::arrays::ScratchArrays;
 use crate::error::{Error, length};
@@ -254,17 +255,14 @@ impl<'a> Listed<'a> {
             let [start, end] = [0, 1].map(|end| {
                 let point_m = ground.point_in_world_m(ends_m[end]);
                 let found = closest.find_within(point_m, tolerance_m);
-                let (spot, _) = found.unwrap_or_else(|| {
-                    wrong.fetch_min(2 * i + end, Ordering::Relaxed);
-                    (
-                        MeshPoint {
-                            triangle: 0,
-                            point_m,
-                        },
-                        0.0,
-                    )
-                });
-                spot
+                found.map_or_else(
+                    || {
+                        wrong.fetch_min(2 * i + end, Ordering::Relaxed);
+                        let triangle = 0;
+                        MeshPoint { triangle, point_m }
+                    },
+                    |(spot, _)| spot,
+                )
             });
             PlacedPiece {
                 start,
@@ -281,16 +279,9 @@ impl<'a> Listed<'a> {
             if wrong < usize::MAX {
                 let (i, end) = (wrong / 2, wrong % 2);
                 let (ends_m, _) = row(i);
-                let (_, distance_m) = closest.find(ground.point_in_world_m(ends_m[end]));
-                let found = format!(
-                    "found a point {} off the object's surface",
-                    length(distance_m)
-                );
-                let right = format!(
-                    "must be at most {} off, in metres of the object's own frame",
-                    length(tolerance_m)
-                );
-                return Err(error(i, end, found, right));
+                let (_, off_m) = closest.find(ground.point_in_world_m(ends_m[end]));
+                let found = format!("found a point {} off the object's surface", length(off_m));
+                return Err(error(i, end, found, at_most(tolerance_m)));
             }
         }
         Ok(Self {

@@ -17,10 +17,13 @@ pub(super) fn refuse_far(
         false => Err(Error::new(
             key(),
             format!("found a point {} off the object", length(off_m)),
-            format!(
-                "must be at most {} off, in metres of the object's own frame",
-                length(most_m)
-            ),
+            at_most(most_m),
         )),
     }
+}
+
+/// How far points may be off, as half of a sentence.
+pub(super) fn at_most(most_m: f64) -> String {
+    let most = length(most_m);
+    format!("must be at most {most} off, in metres of the object's own frame")
 }

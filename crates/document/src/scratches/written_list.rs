@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use glam::{DMat3, DMat4, Vec3};
 use hairline_scene::{Object, Scratch};
 
-use super::sizes::LISTED_SIZES;
 use super::listed::{MORE_COLUMNS, columns};
+use super::sizes::LISTED_SIZES;
 
 /// Writes laid scratches of an object: a straight piece a row, in the frame that `frame_from_world` leads to. In the object's own frame
 /// `pattern = "file"` reads them. The numbers read back as what they were. packages/hairline-shaders reads them in world space.

@@ -8,7 +8,7 @@ use hairline_optics::spectrum::black_body_rgb;
 use serde_json::{Value, json};
 
 use super::nodes::node;
-use crate::description::{Description, Light, LightKind};
+use crate::description::{Cone, Description, Light, LightKind};
 use crate::gltf_scene::extension::EXTENSION;
 
 const PUNCTUAL: &str = "KHR_lights_punctual";
@@ -64,8 +64,7 @@ pub(super) fn write(
             node["extensions"][extension]["light"] = json!(number);
             roots.push(file.push("nodes", node));
         }
-        let has_more = light.picture.is_some() || light.barn_doors_deg.is_some();
-        if has_more || extension == AREA && light.cone.is_some() {
+        if has_more(light, extension) {
             notes.push(format!(
                 "light \"{name}\": other programs show it without its picture, its cone and its barn doors"
             ));
@@ -80,6 +79,12 @@ pub(super) fn write(
     if described.environment.is_some() || !described.studio.hidden {
         notes.push("other programs light the file by environments of their own".to_owned());
     }
+}
+
+/// Whether a light is more than an extension has words for.
+fn has_more(light: &Light, extension: &str) -> bool {
+    let is_shaped = light.picture.is_some() || light.barn_doors_deg.is_some();
+    is_shaped || extension == AREA && light.cone.is_some()
 }
 
 /// Adds the camera, and returns its node.
@@ -117,6 +122,39 @@ fn placed(axes: DMat3, place: DVec3) -> DMat4 {
     DMat4::from_translation(place) * DMat4::from_mat3(axes)
 }
 
+fn spot(cone: &Cone) -> Value {
+    let outer = 0.5 * cone.cone_deg.to_radians();
+    let inner = (outer * (1.0 - cone.cone_softness)).min(outer * (1.0 - 1e-6));
+    json!({ "innerConeAngle": inner, "outerConeAngle": outer })
+}
+
+/// What the irradiance of a sun is multiplied by for its brightest colour.
+fn sun_factor(light: &Light) -> f64 {
+    let tint = light.temperature_k.map_or([1.0; 3], black_body_rgb);
+    let tinted = (0..3).map(|c| light.color[c] * tint[c]);
+    light.exposure_ev.exp2() * tinted.fold(0.0, f64::max)
+}
+
+/// A place whose -z is an axis.
+fn along(axis: DVec3, place: DVec3) -> DMat4 {
+    let z = -axis.normalize_or(DVec3::NEG_Z);
+    let x = z.any_orthonormal_vector();
+    placed(DMat3::from_cols(x, z.cross(x), z), place)
+}
+
+/// The place of a rectangle or a disk: its y leads from the lower to the upper edge.
+fn flat_place(kind: &LightKind, middle_m: DVec3) -> Option<DMat4> {
+    let axis = kind.axis()?;
+    let y = match kind {
+        LightKind::Rectangle { .. } => {
+            let corners = kind.corners_m();
+            (corners[3] - corners[0]).normalize_or_zero()
+        }
+        _ => axis.any_orthonormal_vector(),
+    };
+    Some(placed(DMat3::from_cols(y.cross(-axis), y, -axis), middle_m))
+}
+
 /// The extension that has words for a light, the words, and the light's place: it shines along -z. Of the kinds that glTF does not know the extension
 /// of scenes has the colour, and the table the place.
 fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
@@ -127,51 +165,31 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
         false => 1.0,
     });
     let luminance = LUMENS_PER_WATT * brightest;
-    let along = |axis: DVec3, place: DVec3| {
-        let z = -axis.normalize_or(DVec3::NEG_Z);
-        let x = z.any_orthonormal_vector();
-        placed(DMat3::from_cols(x, z.cross(x), z), place)
-    };
-    let flat = |middle: DVec3, height_m: f64| {
-        let corners = light.kind.corners_m();
-        let axis = light.kind.axis()?;
-        // From the lower to the upper edge.
-        let y = match light.kind {
-            LightKind::Rectangle { .. } => (corners[3] - corners[0]).normalize_or_zero(),
-            _ => axis.any_orthonormal_vector(),
-        };
-        let axes = DMat3::from_cols(y.cross(-axis), y, -axis);
+    let flat = |middle_m: [f64; 3], height_m: f64| {
         // What is not above 0 is no light to the draft.
         let intensity = luminance.max(f64::from(f32::MIN_POSITIVE));
         let words = json!({ "color": color, "intensity": intensity, "size": height_m });
-        Some((words, placed(axes, middle)))
+        Some((words, flat_place(&light.kind, middle_m.into())?))
     };
     match &light.kind {
         LightKind::Sphere { center_m, radius_m } => {
-            let center_m = DVec3::from(*center_m);
             let intensity = luminance * PI * radius_m * radius_m;
             let mut words = json!({ "type": "point", "color": color, "intensity": intensity });
             // Where loaders keep them, renderers of scratches find sizes by these names.
             words["extras"] = json!({ "radius": radius_m });
-            let spot = light.cone.as_ref().filter(|cone| cone.cone_deg < 180.0);
-            let axis = in_scene.cone.map_or(DVec3::NEG_Z, |cone| cone.axis);
-            if let Some(cone) = spot {
-                let outer = 0.5 * cone.cone_deg.to_radians();
-                let inner = (outer * (1.0 - cone.cone_softness)).min(outer * (1.0 - 1e-6));
+            if let Some(cone) = light.cone.as_ref().filter(|cone| cone.cone_deg < 180.0) {
                 words["type"] = json!("spot");
-                words["spot"] = json!({ "innerConeAngle": inner, "outerConeAngle": outer });
+                words["spot"] = spot(cone);
             }
-            Some((PUNCTUAL, words, along(axis, center_m)))
+            let axis = in_scene.cone.map_or(DVec3::NEG_Z, |cone| cone.axis);
+            Some((PUNCTUAL, words, along(axis, (*center_m).into())))
         }
         LightKind::Sun {
             direction,
             angle_deg,
             irradiance,
         } => {
-            let tint = light.temperature_k.map_or([1.0; 3], black_body_rgb);
-            let tinted = (0..3).map(|c| light.color[c] * tint[c]);
-            let factor = light.exposure_ev.exp2() * tinted.fold(0.0, f64::max);
-            let intensity = LUMENS_PER_WATT * irradiance * factor;
+            let intensity = LUMENS_PER_WATT * irradiance * sun_factor(light);
             let mut words =
                 json!({ "type": "directional", "color": color, "intensity": intensity });
             words["extras"] = json!({ "angle": 0.5 * angle_deg.to_radians() });
@@ -180,7 +198,7 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
         LightKind::Disk {
             center_m, radius_m, ..
         } => {
-            let (mut words, place) = flat((*center_m).into(), 2.0 * radius_m)?;
+            let (mut words, place) = flat(*center_m, 2.0 * radius_m)?;
             words["type"] = json!("disk");
             Some((AREA, words, place))
         }
@@ -190,7 +208,7 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
             height_m,
             ..
         } => {
-            let (mut words, place) = flat((*center_m).into(), *height_m)?;
+            let (mut words, place) = flat(*center_m, *height_m)?;
             words["type"] = json!("rect");
             words["rect"] = json!({ "aspect": width_m / height_m });
             Some((AREA, words, place))

@@ -7,25 +7,8 @@ use serde_json::{Value, json};
 
 /// Adds a material without its textures, and returns its number.
 pub(crate) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<String>) -> usize {
-    let (color, metallic) = material.base.color_and_metallic();
-    let [r, g, b] = color.map(|c| c.clamp(0.0, 1.0));
-    let alpha = material.cutout.map_or(1.0, |it| it.alpha);
-    let mut written = json!({
-        "name": material.name,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [r, g, b, alpha],
-            "metallicFactor": metallic,
-            "roughnessFactor": material.base_roughness(),
-        },
-    });
-    match material.cutout.map(|it| it.rule) {
-        Some(AlphaRule::AtLeast(least)) => {
-            written["alphaMode"] = json!("MASK");
-            written["alphaCutoff"] = json!(least);
-        }
-        Some(AlphaRule::Share) => written["alphaMode"] = json!("BLEND"),
-        None => {}
-    }
+    let mut written = json!({ "name": material.name, "pbrMetallicRoughness": base(material) });
+    write_alpha_rule(material, &mut written);
     let brightest = material.emission.into_iter().fold(0.0, f64::max);
     if brightest > 0.0 {
         written["emissiveFactor"] = json!(material.emission.map(|c| c / brightest.max(1.0)));
@@ -41,23 +24,15 @@ pub(crate) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<St
     if material.is_unlit {
         extend("KHR_materials_unlit", json!({}));
     }
-    match &material.base {
-        Base::Dielectric { ior, .. } => {
-            extend("KHR_materials_ior", json!({ "ior": ior }));
-        }
-        Base::MetallicRoughness { .. } => {
-            let specular = &material.specular;
-            extend(
-                "KHR_materials_specular",
-                json!({ "specularFactor": specular.weight, "specularColorFactor": specular.color }),
-            );
-            if material.dielectric_f0 != GLTF_DIELECTRIC_F0 {
-                let root = material.dielectric_f0.sqrt();
-                let ior = (1.0 + root) / (1.0 - root);
-                extend("KHR_materials_ior", json!({ "ior": ior }));
-            }
-        }
-        _ => {}
+    if let Base::MetallicRoughness { .. } = material.base {
+        let specular = &material.specular;
+        extend(
+            "KHR_materials_specular",
+            json!({ "specularFactor": specular.weight, "specularColorFactor": specular.color }),
+        );
+    }
+    if let Some(ior) = ior(material) {
+        extend("KHR_materials_ior", json!({ "ior": ior }));
     }
     if let Some(coat) = &material.coat {
         extend(
@@ -74,11 +49,46 @@ pub(crate) fn write(material: &Material, file: &mut GltfFile, notes: &mut Vec<St
             }),
         );
     }
-    if matches!(material.base, Base::Covered { .. }) {
+    if let Base::Covered { .. } = material.base {
         let name = shown(&material.name);
         notes.push(format!(
             "material \"{name}\": other programs show no plate over it"
         ));
     }
     file.push("materials", written)
+}
+
+fn base(material: &Material) -> Value {
+    let (color, metallic) = material.base.color_and_metallic();
+    let [r, g, b] = color.map(|c| c.clamp(0.0, 1.0));
+    let alpha = material.cutout.map_or(1.0, |it| it.alpha);
+    json!({
+        "baseColorFactor": [r, g, b, alpha],
+        "metallicFactor": metallic,
+        "roughnessFactor": material.base_roughness(),
+    })
+}
+
+fn write_alpha_rule(material: &Material, written: &mut Value) {
+    match material.cutout.map(|it| it.rule) {
+        Some(AlphaRule::AtLeast(least)) => {
+            written["alphaMode"] = json!("MASK");
+            written["alphaCutoff"] = json!(least);
+        }
+        Some(AlphaRule::Share) => written["alphaMode"] = json!("BLEND"),
+        None => {}
+    }
+}
+
+/// The refractive index that is written for a material, if it is another than readers take by themselves.
+fn ior(material: &Material) -> Option<f64> {
+    match material.base {
+        Base::Dielectric { ior, .. } => Some(ior),
+        Base::MetallicRoughness { .. } => {
+            let root = material.dielectric_f0.sqrt();
+            let is_usual = material.dielectric_f0 == GLTF_DIELECTRIC_F0;
+            (!is_usual).then(|| (1.0 + root) / (1.0 - root))
+        }
+        _ => None,
+    }
 }
