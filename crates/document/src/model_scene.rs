@@ -18,12 +18,11 @@ use crate::gltf_scene;
 use crate::probe;
 use crate::scratch_studio::{DARK_GROUND, Subject};
 use crate::wear::Wear;
+use fit::Fit;
 
+mod fit;
 mod lights;
 
-/// Sizes at which scratches can be seen; other models are shown [`SHOWN_M`] large.
-const SIZES_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
-const SHOWN_M: f64 = 0.05;
 /// The share of the picture that the model fills: the rest is for its shadow.
 const FILLED: f64 = 0.8;
 const FOV_Y_DEG: f64 = 28.0;
@@ -122,52 +121,6 @@ impl Description {
     }
 }
 
-/// How a model stands in its scene: upright, and at a size at which scratches can be seen.
-struct Fit {
-    /// Largest extent of the model in its file.
-    extent_m: f64,
-    /// What its lengths are multiplied by.
-    factor: f64,
-    /// `fit_m` of its object.
-    fit_m: Option<f64>,
-    /// The point of the file that is moved to the origin.
-    middle_m: DVec3,
-}
-
-impl Fit {
-    fn new(summary: &probe::MeshSummary, shown_name: &str, notes: &mut Vec<String>) -> Self {
-        let (mut factor, mut fit_m) = (1.0, None);
-        let extent_m = summary.extent_m();
-        if !SIZES_M.contains(&extent_m) {
-            (factor, fit_m) = (SHOWN_M / extent_m, Some(SHOWN_M));
-            notes.push(format!(
-                "{shown_name} is {} large; it is shown {SHOWN_M} m large (`fit_m`), so that its scratches are seen",
-                metres(extent_m)
-            ));
-        }
-        if summary.moved_from.is_some() {
-            // Fitted models are moved.
-            fit_m.get_or_insert(extent_m);
-        }
-        Self {
-            extent_m,
-            factor,
-            fit_m,
-            middle_m: summary.moved_from.unwrap_or(DVec3::ZERO),
-        }
-    }
-
-    /// From y up to z up.
-    fn turned(&self, p: DVec3) -> DVec3 {
-        self.factor * DVec3::new(p.x, -p.z, p.y)
-    }
-
-    /// A point of the file as the scene has it.
-    fn from_middle(&self, p: DVec3) -> DVec3 {
-        self.turned(p - self.middle_m)
-    }
-}
-
 /// The lights of a model's file; a note tells why one is left out.
 fn own_lamps(
     path: &FilePath,
@@ -219,13 +172,6 @@ fn object(path: &FilePath, name: &Path, fit_m: Option<f64>) -> Object {
         rotation_deg: [0.0; 3],
         scale: [1.0; 3],
         hidden: false,
-    }
-}
-
-fn metres(length_m: f64) -> String {
-    match length_m {
-        0.01..1000.0 => format!("{length_m:.3} m"),
-        _ => format!("{length_m:.1e} m"),
     }
 }
 

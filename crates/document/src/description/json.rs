@@ -6,7 +6,8 @@ use toml::de::DeTable;
 
 use super::check::{check_gratings, check_layers};
 use super::read;
-use super::table::{Read, Table};
+use super::table::Table;
+use super::toml_value::Read;
 use super::{Description, Grating, Scratches};
 use crate::error::Error;
 

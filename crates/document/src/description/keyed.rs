@@ -3,9 +3,10 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use super::key_value::KeyValue;
 use super::panel::{Panel, Rows};
 use super::ranges::Check;
-use super::table::{KeyValue, Table};
+use super::table::Table;
 use crate::error::Error;
 use crate::schema::section::keys;
 use crate::schema::{Choice, Entry, Initial, Key};

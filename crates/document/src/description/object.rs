@@ -7,11 +7,13 @@ use hairline_model::mesh_file::Placing;
 use serde::{Serialize, Serializer};
 use toml::de::DeValue;
 
+use super::key_value::KeyValue;
 use super::keyed::Keyed;
 use super::overrides::Override;
 use super::ranges::{Check, Numbers, Take};
 use super::shapes::Shape;
-use super::table::{KeyValue, Read, Table, Value};
+use super::table::Table;
+use super::toml_value::{Read, Value};
 use super::values::named;
 use crate::error::Error;
 use crate::schema::{Form, Initial};

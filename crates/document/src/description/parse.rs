@@ -6,7 +6,8 @@ use hairline_model::text::printable;
 use hairline_optics::ggx::GGX_MIN_ALPHA;
 use toml::de::DeTable;
 
-use super::table::{Read, Table};
+use super::table::Table;
+use super::toml_value::Read;
 use super::{
     Camera, Description, Grating, Ground, Material, MaterialKind, Render, Scratches, Studio,
 };

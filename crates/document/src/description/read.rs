@@ -4,7 +4,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::camera;
 use super::keyed::Keyed;
-use super::table::{Table, Value};
+use super::table::Table;
+use super::toml_value::Value;
 use super::{Camera, Description, Look, Render, Studio};
 use crate::error::Error;
 

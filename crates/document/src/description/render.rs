@@ -8,7 +8,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::keyed::Keyed;
 use super::ranges::Check;
-use super::table::{Read, Table, Value, wrong_type};
+use super::table::Table;
+use super::toml_value::{Read, Value, wrong_type};
 use crate::error::Error;
 use crate::schema::section::keys;
 

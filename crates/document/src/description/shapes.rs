@@ -4,9 +4,11 @@ use hairline_keys::Keyed;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use super::key_value::KeyValue;
 use super::keyed::{Inner, Keyed, Kinds};
 use super::ranges::{Check, Numbers, found, written};
-use super::table::{KeyValue, Read, Table, Value};
+use super::table::Table;
+use super::toml_value::{Read, Value};
 use crate::error::Error;
 use crate::schema::KindKeys;
 use crate::schema::key::{Form, Initial, Key, LARGEST_M, linear, log};

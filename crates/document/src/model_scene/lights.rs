@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use hairline_model::mesh_file::{Punctual, PunctualKind};
 
-use super::Fit;
+use super::fit::Fit;
 use crate::description::{Cone, Light, LightKind, SUN_DEG};
 use crate::schema::{LARGEST_M, SMALLEST_M};
 
