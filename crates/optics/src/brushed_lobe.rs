@@ -21,6 +21,10 @@ use crate::ggx::GGX_MIN_ALPHA;
 use crate::ltc::{LtcLobe, ltc_lobe};
 
 mod outline;
+mod slice;
+mod sphere;
+
+use slice::{FAR, LEAST_SHARE, Moments, Slice, SlicePart};
 
 /// Fejer's first rule: Chebyshev's nodes in (0, 1), and weights by which polynomials are exact; the same in (-1, 0).
 const RULE: [[f64; 2]; 8] = [
@@ -52,9 +56,6 @@ const RULE_ACROSS: [[f64; 2]; 2] = [
 const DENSITY: f64 = 0.5;
 /// The alphas of a look-up over half of the slopes that it stands for, and over the alpha across the slice.
 const TAP_WIDTHS: [f64; 2] = [0.85, 0.55];
-/// A share of a slice below which it sees nothing; below its negative it sees all but that.
-const LEAST_SHARE: f64 = 1e-12;
-
 /// The lobe seen from one direction.
 #[derive(Clone, Copy, Debug)]
 pub struct BrushedLobe {
@@ -73,39 +74,6 @@ pub struct BrushedLobe {
     unit: f64,
 }
 
-/// Facets of one slope along the axis.
-struct Slice {
-    slope: f64,
-    parts: [SlicePart; 3],
-}
-
-/// Facets of one kind in a slice, by their slopes across the axis.
-#[derive(Clone, Copy, Default)]
-struct SlicePart {
-    /// Number of these facets, over that of the first kind.
-    weight: f64,
-    middle: f64,
-    alpha: f64,
-    /// Bounds, as tangents of [`Moments`], of the facets that reflect to above the horizon.
-    from: f64,
-    to: f64,
-}
-
-/// Moments of the part of a slice that sees a light. A slope is `middle` plus `alpha` times a tangent.
-#[derive(Clone, Copy)]
-struct Moments {
-    /// Signed count of the crossings above the middle: each stands for a whole slice, from which `share` takes the tail, so that small tails keep their
-    /// digits.
-    whole: f64,
-    /// Integrals of the density of slopes, less those counted in `whole`; and of the density times the sine and its square.
-    share: f64,
-    first: f64,
-    second: f64,
-    /// The least and the greatest tangent.
-    least: f64,
-    greatest: f64,
-}
-
 /// A round lobe that stands for a part of the lobe.
 #[derive(Clone, Copy, Debug)]
 pub struct BrushedTap {
@@ -115,63 +83,6 @@ pub struct BrushedTap {
     pub roughness: f64,
     /// Light that the tap reflects, single scattering, in each colour channel.
     pub reflected: [f64; 3],
-}
-
-impl Moments {
-    const NONE: Self = Self {
-        whole: 0.0,
-        share: 0.0,
-        first: 0.0,
-        second: 0.0,
-        least: FAR,
-        greatest: -FAR,
-    };
-
-    /// Adds the integrals up to a tangent, times a sign.
-    fn add(&mut self, tan: f64, sign: f64) {
-        let cos = 1.0 / (1.0 + tan * tan).sqrt();
-        let sine = tan.abs() * cos;
-        let cubed = cos * cos * cos;
-        // The tail beyond the tangent, on its side of the middle.
-        let tail = (cos.atan2(sine) - sine * cos) / PI;
-        let tail_second = 0.25 * tail + sine * cubed * 0.5 / PI;
-        let towards = if tan > 0.0 { -sign } else { sign };
-        self.whole += if tan > 0.0 { sign } else { 0.0 };
-        self.share += towards * tail;
-        self.first -= sign * 2.0 / (3.0 * PI) * cubed;
-        self.second += towards * tail_second;
-        self.least = self.least.min(tan);
-        self.greatest = self.greatest.max(tan);
-    }
-
-    /// Adds all between two tangents.
-    fn add_between(&mut self, from: f64, to: f64) {
-        self.add(to, 1.0);
-        self.add(from, -1.0);
-    }
-
-    fn share(&self) -> f64 {
-        self.whole + self.share
-    }
-
-    /// Two tangents that have the mean and the variance of the sines.
-    fn places(&self) -> [f64; 2] {
-        let share = self.share();
-        let mean = self.first / share;
-        let square = (0.25 * self.whole + self.second) / share;
-        let spread = (square - mean * mean).max(0.0).sqrt();
-        [mean - spread, mean + spread].map(|sine| {
-            let tan = sine / (1.0 - sine * sine).max(1e-12).sqrt();
-            tan.clamp(self.least, self.greatest)
-        })
-    }
-}
-
-impl SlicePart {
-    /// Tangent of a slope, within the part above the horizon.
-    fn tan(&self, slope: f64) -> f64 {
-        ((slope - self.middle) / self.alpha).clamp(self.from, self.to)
-    }
 }
 
 impl BrushedLobe {
@@ -424,74 +335,7 @@ impl BrushedLobe {
         }
         taps
     }
-
-    /// Computes the light that the lobe reflects of a sphere, single scattering, over the sphere's radiance. `axis` is the unit direction to its centre
-    /// in the local frame, `sin2` the squared sine of its angular radius; from inside (sin2 >= 1) everything is lit.
-    pub fn sphere(&self, axis: DVec3, sin2: f64, of: &FresnelRgb) -> [f64; 3] {
-        let c = self.turned(axis);
-        let wo = self.wo;
-        // Cosine of the radius, squared sine and 1 less the cosine; from inside those of a cap that holds more than all.
-        let (least, sin2, versine) = if sin2 >= 1.0 {
-            (-2.0, -3.0, 3.0)
-        } else {
-            let cos = (1.0 - sin2).sqrt();
-            (cos, sin2, sin2 / (1.0 + cos))
-        };
-        // A direction with slopes x and y is inside where a2 y^2 + 2 a1 y + a0 is above zero, with a1 = b0 + b1 x and a0 = e0 + e1 x + e2 x^2.
-        let m = wo.dot(c) + least;
-        let a2 = 2.0 * wo.y * c.y - m;
-        let (b0, b1) = (-(wo.z * c.y + wo.y * c.z), wo.x * c.y + wo.y * c.x);
-        let (e0, e1, e2) = (
-            2.0 * wo.z * c.z - m,
-            -2.0 * (wo.x * c.z + wo.z * c.x),
-            2.0 * wo.x * c.x - m,
-        );
-        // a1^2 - a2 a0, in an order that keeps the digits of small spheres: d2 x^2 + 2 d1 x + d0. Slices reach it where that is above zero.
-        let (p, r) = (wo.x + c.x, wo.z + c.z);
-        let crossed = versine * (wo.x * c.z + wo.z * c.x);
-        let (of_x, of_z) = (
-            sin2 + 2.0 * versine * wo.x * c.x,
-            sin2 + 2.0 * versine * wo.z * c.z,
-        );
-        let (d2, d1, d0) = (of_z - r * r, crossed - p * r, of_x - p * p);
-        let is_outside = a2 > 0.0;
-        let mut range = [-1.0, 1.0];
-        if d2 < 0.0 && !is_outside {
-            let inside = r * r * of_x + p * p * of_z - 2.0 * p * r * crossed + crossed * crossed
-                - of_x * of_z;
-            if inside <= 0.0 {
-                return [0.0; 3];
-            }
-            let ends = [1.0, -1.0].map(|sign| (-d1 + sign * inside.sqrt()) / d2);
-            range = ends.map(|end| self.place_of_slope(end));
-        }
-        self.sum_of_slices(range, of, |x, add| {
-            let (a1, a0) = (b0 + b1 * x, e0 + x * (e1 + x * e2));
-            let inside = d0 + x * (2.0 * d1 + x * d2);
-            let sign = if is_outside { -1.0 } else { 1.0 };
-            if is_outside {
-                add(FAR, 1.0);
-                add(-FAR, -1.0);
-            }
-            if inside > 0.0 {
-                let reach = inside.sqrt().copysign(a1);
-                let q = -(a1 + reach);
-                // The nearer end has two forms; the one that cancels less is used.
-                let near = if 2.0 * reach.abs() < a1.abs() {
-                    (reach - a1) / a2
-                } else {
-                    a0 / q
-                };
-                let ends = [q / a2, near];
-                add(ends[0].max(ends[1]).min(FAR), sign);
-                add(ends[0].min(ends[1]).max(-FAR), -sign);
-            }
-        })
-    }
 }
-
-/// A slope beyond all that reflect to above the horizon.
-const FAR: f64 = 1e9;
 
 /// Mirrors a quadrature rule that is given for one side of its middle.
 fn both_ways(rule: &[[f64; 2]]) -> impl Iterator<Item = [f64; 2]> {

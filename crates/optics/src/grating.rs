@@ -6,6 +6,7 @@
 //! that a light cuts out of a scratch's band serve a row as they are.
 
 mod incidence;
+mod rigorous;
 mod single;
 mod table;
 
@@ -16,7 +17,8 @@ use crate::cover::Cover;
 use crate::diffraction::sinc;
 use crate::spectrum::WAVELENGTH_MIN_NM;
 
-pub use incidence::{IncidenceRow, RigorousGrating};
+pub use incidence::IncidenceRow;
+pub use rigorous::RigorousGrating;
 pub use single::GroovesAt;
 pub use table::{GRATING_DEPTH_NM, GRATING_WIDTH_UM};
 

@@ -181,15 +181,11 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
         t1,
         t2,
     } = *cone;
-    let p2 = 1.0 + t1 * t1;
-    let q2 = 1.0 + t2 * t2;
-    let pq = (p2 * q2).sqrt();
-    let whole = PI * t1 * t2 / pq;
-
     // z along the boundary is axis.z + amplitude cos(t - t0).
     let (z1, z2) = (t1 * side1.z, t2 * side2.z);
     let amplitude = z1.hypot(z2);
     if axis.z >= amplitude {
+        let whole = PI * t1 * t2 / ((1.0 + t1 * t1) * (1.0 + t2 * t2)).sqrt();
         return whole * axis;
     }
     if axis.z <= -amplitude {
@@ -207,9 +203,33 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
         cos_t0 * cos_b - sin_t0 * sin_b,
         sin_t0 * cos_b + cos_t0 * sin_b,
     );
+    let arc = irradiance_cone_arc(cone, [c_from, s_from], [c_to, s_to], 2.0 * sin_b * cos_b);
 
+    // Back along the horizon, from the arc's end to its start.
+    let from = (axis + side1 * (t1 * c_from) + side2 * (t2 * s_from)).truncate();
+    // from - to, by the difference of two cosines: as precise as the cone is small.
+    let back = 2.0 * sin_b * (side1 * (t1 * sin_t0) - side2 * (t2 * cos_t0)).truncate();
+    let to = from - back;
+    let turn = from.perp_dot(back);
+    let closing = irradiance_angle(turn.abs(), to.dot(from)).copysign(turn);
+    let vector = arc + DVec3::Z * (0.5 * closing);
+    vector.with_z(vector.z.max(0.0))
+}
+
+/// Half the integral of w x dw along the boundary of a cone between two points, each by the cosine and the sine of its t. `sin_turn` is the sine of the
+/// difference of t.
+fn irradiance_cone_arc(
+    cone: &EllipticCone,
+    [c_from, s_from]: [f64; 2],
+    [c_to, s_to]: [f64; 2],
+    sin_turn: f64,
+) -> DVec3 {
+    let (t1, t2) = (cone.t1, cone.t2);
+    let p2 = 1.0 + t1 * t1;
+    let q2 = 1.0 + t2 * t2;
+    let pq = (p2 * q2).sqrt();
     // Along the axis: the integral of T1 T2 / (p^2 cos^2 t + q^2 sin^2 t).
-    let sine = 2.0 * sin_b * cos_b * pq;
+    let sine = sin_turn * pq;
     let swept = irradiance_angle(sine.abs(), p2 * c_from * c_to + q2 * s_from * s_to);
     let swept = if sine < 0.0 { 2.0 * PI - swept } else { swept };
     // Along the sides: the integrals of T2 cos t and T1 sin t over the same.
@@ -234,20 +254,9 @@ pub fn irradiance_cone(cone: &EllipticCone) -> DVec3 {
         };
         -t1 * c / q2 * ratio
     };
-    let arc = 0.5
-        * (axis * (t1 * t2 / pq * swept)
-            - side1 * (along1(s_to) - along1(s_from))
-            - side2 * (along2(c_to, s_to) - along2(c_from, s_from)));
-
-    // Back along the horizon, from the arc's end to its start.
-    let from = (axis + side1 * (t1 * c_from) + side2 * (t2 * s_from)).truncate();
-    // from - to, by the difference of two cosines: as precise as the cone is small.
-    let back = 2.0 * sin_b * (side1 * (t1 * sin_t0) - side2 * (t2 * cos_t0)).truncate();
-    let to = from - back;
-    let turn = from.perp_dot(back);
-    let closing = irradiance_angle(turn.abs(), to.dot(from)).copysign(turn);
-    let vector = arc + DVec3::Z * (0.5 * closing);
-    vector.with_z(vector.z.max(0.0))
+    0.5 * (cone.axis * (t1 * t2 / pq * swept)
+        - cone.side1 * (along1(s_to) - along1(s_from))
+        - cone.side2 * (along2(c_to, s_to) - along2(c_from, s_from)))
 }
 
 /// Starts a polygon on a diffuse surface; see [`lambert_end`].

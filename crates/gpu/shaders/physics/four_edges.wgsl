@@ -1,5 +1,5 @@
 // Intersects the lines of a band with an outline of three or four edges. All vectors are in the scratch's frame. Twin: PolygonView of
-// optics/src/band.rs, for any number of edges.
+// optics/src/band/polygon.rs, for any number of edges.
 // Needs: band.
 
 // Unit directions to three or four corners. Edges are made where they are asked for: kept, they would take forty registers. Loops over

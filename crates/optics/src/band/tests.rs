@@ -1,8 +1,10 @@
 //! Chords and roots against quadrature by indicator functions, which shares no formula with them.
 
+use super::polygon::line_down;
 use super::*;
 use crate::diffraction::chord_integral;
 use crate::scratch::{band_std, oblique_depth_nm, phase_step_energy};
+use std::f64::consts::PI;
 
 const SIGMA_UM: f64 = 20.0;
 const NM: f64 = 555.0;

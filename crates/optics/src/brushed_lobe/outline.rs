@@ -6,7 +6,8 @@
 
 use glam::{DVec2, DVec3, Vec2Swizzles};
 
-use super::{BrushedLobe, FAR, turned};
+use super::slice::FAR;
+use super::{BrushedLobe, turned};
 use crate::fresnel::FresnelRgb;
 
 /// Newton's steps: each doubles the digits.

@@ -147,26 +147,24 @@ impl Trapezoid {
     }
 }
 
-impl Cell {
-    /// Makes the cell; none where the window is negligible.
-    fn new(trapezoid: &Trapezoid, sign_of_all: f64, coherence_um: f64) -> Option<Self> {
-        let [[a, b], [c, d]] = trapezoid.edges;
-        let (first, second) = (a.distance(b), c.distance(d));
-        let taper = (second - first) / (first + second);
-        let taper = if taper.abs() < 1e-12 { 0.0 } else { taper };
-        let middle = 0.25 * (a + b + c + d);
-        let along = 0.25 * ((b - a) + (d - c));
-        let across = 0.25 * ((c - a) + (d - b));
+/// A cell in units of the coherence length.
+struct ScaledCell {
+    /// As [`Cell`]'s `middle`, `along`, `across` and `taper`.
+    m: DVec2,
+    p: DVec2,
+    q: DVec2,
+    taper: f64,
+    /// The cell's area over the window's whole integral.
+    front: f64,
+}
 
-        let (m, p, q) = (
-            middle / coherence_um,
-            along / coherence_um,
-            across / coherence_um,
-        );
-        let front = 4.0 * p.perp_dot(q).abs() / (2.0 * PI);
+impl ScaledCell {
+    /// Numbers of terms of the series across and along; none where the window is negligible.
+    fn terms_needed(&self) -> Option<[usize; 2]> {
+        let Self { m, p, q, taper, .. } = *self;
         let (half_along, half_across) = (p.length() * (1.0 + taper.abs()), q.length());
         let nearest = (m.length() - half_along - half_across).max(0.0);
-        let size = front * (-0.5 * nearest * nearest).exp();
+        let size = self.front * (-0.5 * nearest * nearest).exp();
         if !(size > TOLERANCE) {
             return None;
         }
@@ -175,10 +173,20 @@ impl Cell {
             legendre::terms_needed(slope.abs() + shear, bend, size, TOLERANCE)
         };
         let columns = needed(m.dot(p) * (1.0 + taper.abs()), half_along);
-        let tapered = taper != 0.0;
         // The edges' lengths are one more factor.
-        let rows = (needed(m.dot(q), half_across) + 2 * usize::from(tapered)).min(MOST_TERMS);
+        let tapered = usize::from(taper != 0.0);
+        let rows = (needed(m.dot(q), half_across) + 2 * tapered).min(MOST_TERMS);
+        Some([rows, columns])
+    }
 
+    /// The window's moments by Legendre's polynomials across and along the cell, times `sign_of_all`.
+    fn moments(
+        &self,
+        rows: usize,
+        columns: usize,
+        sign_of_all: f64,
+    ) -> [[f64; MOST_TERMS]; MOST_TERMS] {
+        let Self { m, p, q, taper, .. } = *self;
         let mut grid = [[0.0; MOST_TERMS]; MOST_TERMS];
         for v in &rule(rows).nodes {
             let wide = 1.0 + taper * v.x;
@@ -191,27 +199,58 @@ impl Cell {
                 }
             }
             for (row, grid) in grid.iter_mut().enumerate().take(rows) {
-                let factor = 0.25 * sign_of_all * front * wide * v.weight * v.polynomials[row];
+                let factor = 0.25 * sign_of_all * self.front * wide * v.weight * v.polynomials[row];
                 for (sum, c) in grid[..columns].iter_mut().zip(&line) {
                     *sum += factor * c;
                 }
             }
         }
-        let (mut lengths, mut series) = (Vec::with_capacity(rows), Vec::new());
-        for (row, line) in grid.iter_mut().enumerate().take(rows) {
-            // Across a tapering part the polynomials themselves are wanted, and the integral over them has half as much.
-            let sign_across = if tapered { 0.5 } else { sign(row) };
-            for (n, c) in line.iter_mut().enumerate() {
-                *c *= ((2 * row + 1) * (2 * n + 1)) as f64 * sign_across * sign(n);
-            }
-            let is_large = |c: &f64| c.abs() > 0.1 * TOLERANCE;
-            let length = line.iter().rposition(is_large).map_or(0, |last| last + 1);
-            lengths.push(length);
-            series.extend_from_slice(&line[..length]);
+        grid
+    }
+}
+
+/// [`Cell`]'s `lengths` and `series` by the moments, without the small coefficients at the ends.
+fn shortened(grid: &mut [[f64; MOST_TERMS]], tapered: bool) -> (Vec<usize>, Vec<f64>) {
+    let (mut lengths, mut series) = (Vec::with_capacity(grid.len()), Vec::new());
+    for (row, line) in grid.iter_mut().enumerate() {
+        // Across a tapering part the polynomials themselves are wanted, and the integral over them has half as much.
+        let sign_across = if tapered { 0.5 } else { sign(row) };
+        for (n, c) in line.iter_mut().enumerate() {
+            *c *= ((2 * row + 1) * (2 * n + 1)) as f64 * sign_across * sign(n);
         }
-        while lengths.last() == Some(&0) {
-            lengths.pop();
-        }
+        let is_large = |c: &f64| c.abs() > 0.1 * TOLERANCE;
+        let length = line.iter().rposition(is_large).map_or(0, |last| last + 1);
+        lengths.push(length);
+        series.extend_from_slice(&line[..length]);
+    }
+    while lengths.last() == Some(&0) {
+        lengths.pop();
+    }
+    (lengths, series)
+}
+
+impl Cell {
+    /// Makes the cell; none where the window is negligible.
+    fn new(trapezoid: &Trapezoid, sign_of_all: f64, coherence_um: f64) -> Option<Self> {
+        let [[a, b], [c, d]] = trapezoid.edges;
+        let (first, second) = (a.distance(b), c.distance(d));
+        let taper = (second - first) / (first + second);
+        let taper = if taper.abs() < 1e-12 { 0.0 } else { taper };
+        let middle = 0.25 * (a + b + c + d);
+        let along = 0.25 * ((b - a) + (d - c));
+        let across = 0.25 * ((c - a) + (d - b));
+
+        let [m, p, q] = [middle, along, across].map(|vector| vector / coherence_um);
+        let scaled = ScaledCell {
+            m,
+            p,
+            q,
+            taper,
+            front: 4.0 * p.perp_dot(q).abs() / (2.0 * PI),
+        };
+        let [rows, columns] = scaled.terms_needed()?;
+        let mut grid = scaled.moments(rows, columns, sign_of_all);
+        let (lengths, series) = shortened(&mut grid[..rows], taper != 0.0);
         Some(Self {
             middle,
             along,

@@ -2,11 +2,9 @@
 //! each direction to the viewer. With a viewer all angles of the light on the band's middle line are given by q, so that one row of the table serves
 //! whole chords.
 
-use super::Grating;
+use super::rigorous::{RigorousGrating, cos_of};
 use super::table::{Columns, Rise};
-use crate::cover::Cover;
-use crate::rigorous::{Efficiencies, Medium};
-use crate::spectrum::Observer;
+use crate::spectrum::SpectralSample;
 use crate::table::{COLUMNS, ROWS, ScratchTable, TableRow};
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,23 +13,6 @@ use std::f64::consts::FRAC_PI_2;
 const INCIDENCES: [usize; 2] = [64, 8];
 
 const _: () = assert!(INCIDENCES[0] * INCIDENCES[1] == ROWS);
-
-/// A row of grooves with its rigorous efficiencies, in a material.
-#[derive(Clone, Copy, Debug)]
-pub struct RigorousGrating<'a> {
-    /// The grooves.
-    pub row: Grating,
-    /// Their efficiencies, without what displaces them or spreads their depths.
-    pub efficiencies: &'a Efficiencies,
-    /// What the channels are.
-    pub observer: &'a Observer,
-    /// Material whose efficiencies they are.
-    pub medium: &'a Medium,
-    /// Whether the grooves are in a material of another colour, which its shading brings.
-    pub is_colored: bool,
-    /// A plate over the grooves, of the index that the efficiencies have above them.
-    pub cover: Option<Cover>,
-}
 
 /// The components of a direction to a viewer across and along the grooves, at an incidence of the table or between some.
 fn components(across: f64, along: f64) -> [f64; 2] {
@@ -59,6 +40,27 @@ struct Sent {
     weight: [f64; 3],
     first: usize,
     rises: Vec<Rise>,
+}
+
+/// A direction to the viewer, with what a flat surface sends there.
+struct Viewer {
+    /// Components across and along the grooves.
+    direction: [f64; 2],
+    cos_o: f64,
+    /// The material's own spectrum at the observer's wavelengths.
+    own_nm: Vec<f64>,
+    /// The part in each channel that the outer face of a cover does not send.
+    by_grooves: [f64; 3],
+    /// What all of the spectrum weighs, without what the outer face of a cover adds.
+    own: [f64; 3],
+}
+
+impl Viewer {
+    /// Cosine of light at q.
+    fn cos_i(&self, q: f64) -> f64 {
+        let [across, along] = self.direction;
+        cos_of([q - across, along])
+    }
 }
 
 impl RigorousGrating<'_> {
@@ -108,44 +110,72 @@ impl RigorousGrating<'_> {
     /// Adds to zeros the columns of a viewer's direction.
     fn fill(
         &self,
-        [across, along]: [f64; 2],
+        direction: [f64; 2],
         columns: &Columns,
         sent: &[Sent],
         rests: &[[Vec<Rise>; 2]],
         sums: &mut [[f64; 6]],
     ) {
         let count = columns.q.len();
+        let viewer = self.viewer(direction);
+        self.add_orders(&viewer, sent, &mut sums[..count]);
+        for (i, rest) in rests.iter().enumerate() {
+            self.add_rest(&viewer, columns, i, rest, sums);
+        }
+        // Slopes are by the column.
+        for (sum, step) in sums.iter_mut().zip(&columns.step) {
+            (3..6).for_each(|c| sum[c] *= step);
+        }
+        let [r, g, b, ..] = sums[count - 1];
+        sums[count..].fill([r, g, b, 0.0, 0.0, 0.0]);
+        let missing = self.missing(&viewer);
+        (0..3).for_each(|c| sums[COLUMNS - 1][c] = 0.5 * missing[c]);
+    }
+
+    fn viewer(&self, direction: [f64; 2]) -> Viewer {
         let samples = self.observer.samples();
-        let left = 1.0 - along * along;
-        let cos_of = |across: f64| (left - across * across).max(0.0).sqrt();
-        let cos_o = cos_of(across);
-        // The material's own spectrum.
-        let own_at = |nm: f64| match self.is_colored {
-            true => 1.0,
-            false => self.flat(cos_o, nm),
-        };
-        let own_nm: Vec<f64> = samples.iter().map(|s| own_at(s.wavelength_nm)).collect();
+        let cos_o = cos_of(direction);
+        let own_at = |s: &SpectralSample| self.own_spectrum(cos_o, s.wavelength_nm);
+        let own_nm: Vec<f64> = samples.iter().map(own_at).collect();
         let by_grooves = self.by_grooves(cos_o);
-        // What all of it weighs, without what the outer face of a cover adds.
-        let own: [f64; 3] = std::array::from_fn(|c| {
+        let own = std::array::from_fn(|c| {
             let weighed = samples
                 .iter()
                 .zip(&own_nm)
                 .map(|(s, own)| s.weight[c] * own);
             weighed.sum::<f64>() / by_grooves[c]
         });
-        let mut whole = vec![[0.0; 3]; count + 1];
+        Viewer {
+            direction,
+            cos_o,
+            own_nm,
+            by_grooves,
+            own,
+        }
+    }
+
+    /// The material's own spectrum.
+    fn own_spectrum(&self, cos_o: f64, nm: f64) -> f64 {
+        match self.is_colored {
+            true => 1.0,
+            false => self.flat(cos_o, nm),
+        }
+    }
+
+    /// Adds the light of the orders, each over the columns that its window spans and whole from there on.
+    fn add_orders(&self, viewer: &Viewer, sent: &[Sent], sums: &mut [[f64; 6]]) {
+        let mut whole = vec![[0.0; 3]; sums.len() + 1];
         for sent in sent {
-            let q = self.row.order_q(sent.order, sent.nm);
-            let cos_i = cos_of(q - across);
+            let cos_i = viewer.cos_i(self.row.order_q(sent.order, sent.nm));
             if cos_i == 0.0 {
                 continue;
             }
-            let energy = self.energy(sent.order, sent.nm, [across, along], 0.5 * (cos_i + cos_o));
-            let energy = energy * own_at(sent.nm);
-            let passed = self.passed(cos_i, cos_o);
+            let depth_share = 0.5 * (cos_i + viewer.cos_o);
+            let energy = self.energy(sent.order, sent.nm, viewer.direction, depth_share);
+            let energy = energy * self.own_spectrum(viewer.cos_o, sent.nm);
+            let passed = self.passed(cos_i, viewer.cos_o);
             let weight: [f64; 3] =
-                std::array::from_fn(|c| sent.weight[c] * energy * passed[c] / own[c]);
+                std::array::from_fn(|c| sent.weight[c] * energy * passed[c] / viewer.own[c]);
             for (at, rise) in sent.rises.iter().enumerate() {
                 let sum = &mut sums[sent.first + at];
                 for c in 0..3 {
@@ -158,146 +188,62 @@ impl RigorousGrating<'_> {
             }
         }
         let mut risen = [0.0; 3];
-        for (sum, whole) in sums.iter_mut().zip(&whole).take(count) {
+        for (sum, whole) in sums.iter_mut().zip(&whole) {
             for c in 0..3 {
                 risen[c] += whole[c];
                 sum[c] += risen[c];
             }
         }
-        for (i, rest) in rests.iter().enumerate() {
-            let nm = samples[i].wavelength_nm;
-            let scale = self.rest_scale(nm, [across, along]);
-            let weight: [f64; 3] =
-                std::array::from_fn(|c| samples[i].weight[c] * scale * own_nm[i] / own[c]);
-            let [alone, less] = rest;
-            let mut value = 0.0;
-            for at in 1..count {
-                let cos_i = cos_of(columns.q[at] - across);
-                if cos_i == 0.0 {
-                    if columns.q[at] > across {
-                        (0..3).for_each(|c| sums[at][c] += weight[c] * value);
-                    }
-                    continue;
-                }
-                let step = self.row.mean_phase_step(0.5 * (cos_i + cos_o), nm);
-                let (all, together) = (2.0 * step.re, step.norm_sqr());
-                let of = |i: usize| all * (alone[at][i]) - together * less[at][i];
-                let before = all * alone[at - 1][0] - together * less[at - 1][0];
-                value += of(0) - before;
-                for c in 0..3 {
-                    sums[at][c] += weight[c] * value;
-                    sums[at][3 + c] += weight[c] * of(1);
-                }
-            }
-        }
-        // Slopes are by the column.
-        for (sum, step) in sums.iter_mut().zip(&columns.step) {
-            (3..6).for_each(|c| sum[c] *= step);
-        }
-        let [r, g, b, ..] = sums[count - 1];
-        sums[count..].fill([r, g, b, 0.0, 0.0, 0.0]);
-        let kept: [f64; 3] = std::array::from_fn(|c| {
-            let of = |i: usize| {
-                let nm = samples[i].wavelength_nm;
-                samples[i].weight[c] * own_nm[i] * self.energy(0, nm, [across, along], cos_o)
-            };
-            (0..samples.len()).map(of).sum::<f64>() / own[c]
-        });
-        (0..3).for_each(|c| sums[COLUMNS - 1][c] = 0.5 * (by_grooves[c] - kept[c]).max(0.0));
     }
 
-    fn index_above(&self) -> f64 {
-        self.cover.map_or(1.0, |cover| cover.ior)
-    }
-
-    fn flat(&self, cos_o: f64, nm: f64) -> f64 {
-        self.medium.reflectance(self.index_above(), cos_o, nm)
-    }
-
-    /// The part of the light in the mirror's direction of a flat surface that its outer face does not send.
-    pub fn by_grooves(&self, cos_o: f64) -> [f64; 3] {
-        match (self.cover, self.medium) {
-            (Some(cover), Medium::Metal(metal)) => {
-                let all = cover.reflectance_seen_by(self.observer, metal, cos_o);
-                cover.part_below(all, cos_o)
-            }
-            _ => [1.0; 3],
-        }
-    }
-
-    /// Light from one angle that gets through a cover, over light from the viewer's.
-    pub fn passed(&self, cos_i: f64, cos_o: f64) -> [f64; 3] {
-        self.cover.map_or([1.0; 3], |cover| {
-            let (to, from) = (cover.passed(cos_o), cover.passed(cos_i));
-            std::array::from_fn(|c| if to[c] > 0.0 { from[c] / to[c] } else { 0.0 })
-        })
-    }
-
-    /// The light that an order sends to a viewer, over that of a flat surface of the same material. Spread depths weaken the orders as in (43).
-    pub fn energy(&self, order: i32, nm: f64, [across, along]: [f64; 2], depth_share: f64) -> f64 {
-        let cos_o = (1.0 - across * across - along * along).max(0.0).sqrt();
-        let flat = self.flat(cos_o, nm);
-        let sent = self.efficiencies.efficiency(order, nm, -across, along) / flat;
-        // Waves are shorter in a cover.
-        let spread = self
-            .row
-            .kept_by_spread(self.index_above() * depth_share, nm);
-        let fill = self.row.fill();
-        let lost = 1.0 - spread;
-        if order == 0 {
-            let floor = 1.0 - fill;
-            return spread * sent + lost * (floor * floor - fill * fill * spread);
-        }
-        spread * self.row.order_kept(order) * sent + lost * lost * self.row.order_weight(order)
-    }
-
-    /// As [`Grating::density`], to a viewer; what a cover takes of it is left out.
-    pub fn density(
+    /// Adds the light that grooves send each for itself, of one of the observer's wavelengths.
+    fn add_rest(
         &self,
-        q: f64,
-        viewer: [f64; 2],
-        depth_share: f64,
-        nm: f64,
-        band_std: f64,
-    ) -> f64 {
-        let orders = self.row.orders_about(q, nm, band_std);
-        let peaks = orders.map(|(order, peak)| self.energy(order, nm, viewer, depth_share) * peak);
-        peaks.sum::<f64>() + self.rest_density(q, viewer, depth_share, nm)
-    }
-
-    /// The light that grooves send each for itself, as [`Self::density`].
-    pub(crate) fn rest_density(&self, q: f64, viewer: [f64; 2], depth_share: f64, nm: f64) -> f64 {
-        match self.row.rest_density(q, depth_share, nm) {
-            0.0 => 0.0,
-            rest => self.rest_scale(nm, viewer) * rest,
-        }
-    }
-
-    /// Ratio of the light of rigorous orders to that of scalar ones: what displaced grooves take of them, they send elsewhere.
-    fn rest_scale(&self, nm: f64, [across, along]: [f64; 2]) -> f64 {
-        let left = 1.0 - along * along;
-        let cos_of = |across: f64| (left - across * across).max(0.0).sqrt();
-        let cos_o = cos_of(across);
-        let flat = self.flat(cos_o, nm);
-        let most = (2.0 / self.row.order_q(1, nm)) as i32;
-        let (mut rigorous, mut scalar) = (0.0, 0.0);
-        for order in (-most..=most).filter(|order| *order != 0) {
-            let cos_i = cos_of(self.row.order_q(order, nm) - across);
-            if cos_i > 0.0 {
-                rigorous += self.efficiencies.efficiency(order, nm, -across, along) / flat;
-                let bare = Grating {
-                    jitter_um: 0.0,
-                    depth_spread: 0.0,
-                    ..self.row
-                };
-                scalar += bare.order_energy(order, 0.5 * (cos_i + cos_o), nm);
+        viewer: &Viewer,
+        columns: &Columns,
+        wavelength: usize,
+        [alone, less]: &[Vec<Rise>; 2],
+        sums: &mut [[f64; 6]],
+    ) {
+        let sample = &self.observer.samples()[wavelength];
+        let nm = sample.wavelength_nm;
+        let scale = self.rest_scale(nm, viewer.direction);
+        let weight: [f64; 3] = std::array::from_fn(|c| {
+            sample.weight[c] * scale * viewer.own_nm[wavelength] / viewer.own[c]
+        });
+        let mut value = 0.0;
+        for at in 1..columns.q.len() {
+            let cos_i = viewer.cos_i(columns.q[at]);
+            if cos_i == 0.0 {
+                if columns.q[at] > viewer.direction[0] {
+                    (0..3).for_each(|c| sums[at][c] += weight[c] * value);
+                }
+                continue;
+            }
+            let step = self.row.mean_phase_step(0.5 * (cos_i + viewer.cos_o), nm);
+            let (all, together) = (2.0 * step.re, step.norm_sqr());
+            let of = |i: usize| all * (alone[at][i]) - together * less[at][i];
+            let before = all * alone[at - 1][0] - together * less[at - 1][0];
+            value += of(0) - before;
+            for c in 0..3 {
+                sums[at][c] += weight[c] * value;
+                sums[at][3 + c] += weight[c] * of(1);
             }
         }
-        if scalar > 0.0 {
-            (rigorous / scalar).min(4.0)
-        } else {
-            0.0
-        }
+    }
+
+    /// What the grooves take from the mirror's direction, over the light that a flat surface sends there.
+    fn missing(&self, viewer: &Viewer) -> [f64; 3] {
+        let samples = self.observer.samples();
+        std::array::from_fn(|c| {
+            let of = |i: usize| {
+                let energy =
+                    self.energy(0, samples[i].wavelength_nm, viewer.direction, viewer.cos_o);
+                samples[i].weight[c] * viewer.own_nm[i] * energy
+            };
+            let kept = (0..samples.len()).map(of).sum::<f64>() / viewer.own[c];
+            (viewer.by_grooves[c] - kept).max(0.0)
+        })
     }
 }
 
@@ -347,9 +293,10 @@ impl<'a> IncidenceRow<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grating::Grating;
     use crate::metal::Metal;
-    use crate::rigorous::FineGrooves;
-    use crate::spectrum;
+    use crate::rigorous::{Efficiencies, FineGrooves, Medium};
+    use crate::spectrum::{self, Observer};
 
     /// Sums over its efficiencies are what a row of a table sends to all places of an order, and what it takes; between rows nearly.
     #[test]
