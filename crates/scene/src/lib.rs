@@ -14,6 +14,7 @@ mod light;
 pub mod material_optics;
 mod picture_lie;
 pub mod scene;
+mod scratch_tables;
 
 pub use camera::CameraFrame;
 pub use environment::Environment;
@@ -25,6 +26,7 @@ pub use groove_shapes::{GrooveShapes, MOST_SHAPES};
 pub use hairline_model::texture_lookup;
 pub use kept_tables::KeptTables;
 pub use light::vector_area_m2;
-pub use material_optics::{GratingSpectrum, MaterialOptics, Reflector, ScratchTables};
+pub use material_optics::{MaterialOptics, Reflector};
 pub use picture_lie::{PictureLie, three_sides};
 pub use scene::*;
+pub use scratch_tables::{GratingSpectrum, ScratchTables};

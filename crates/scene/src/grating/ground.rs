@@ -4,9 +4,38 @@
 use glam::{DVec2, DVec3};
 use hairline_model::texture_lookup::texture_footprint;
 
-use super::{GrooveCourse, GroovePicture, UvField};
 use crate::picture_lie::{PictureLie, three_sides};
 use crate::scene::{Mesh, Texture};
+
+/// A picture on the surface of a grating.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroovePicture {
+    /// Index of the texture in the scene.
+    pub texture: usize,
+    /// Mapping of the picture onto the surface.
+    pub lie: PictureLie,
+}
+
+/// A direction by texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvField {
+    /// Whether the grooves run along the second coordinate, in place of the first.
+    pub along_v: bool,
+    /// A picture (linear) of the scene's that turns it: red and green are the parts along the tangent and the bitangent, from -1 to 1.
+    pub directions: Option<usize>,
+}
+
+/// Direction and numbering of grooves about a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct GrooveCourse {
+    /// The direction there, of any length.
+    pub here: DVec3,
+    /// Change of the direction over one standard deviation of the pixel's filter to the right and down.
+    pub steps: [DVec3; 2],
+    /// Texture coordinate that stays the same along a groove, in turns of the texture, and its gradient: grooves are numbered by it.
+    pub level: f64,
+    pub level_per_m: DVec3,
+}
 
 /// A triangle of an object.
 #[derive(Clone, Copy, Debug)]

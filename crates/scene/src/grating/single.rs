@@ -1,7 +1,9 @@
 //! Single grooves of a grating: which number the one under a point has, and how far off it is (docs/model.md, section 12). Twin:
 //! single_grooves.wgsl.
 
-use super::{Bearing, Grating, GrooveCourse, GrooveField, GrooveGround, NO_DIRECTION_M, side};
+use super::field::{NO_DIRECTION_M, side};
+use super::ground::GrooveCourse;
+use super::{Bearing, Grating, GrooveField, GrooveGround};
 use glam::DVec3;
 use hairline_optics::grating::GroovesAt;
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
