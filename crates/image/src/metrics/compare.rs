@@ -1,5 +1,6 @@
 //! Comparison of two files in all figures.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use rayon::prelude::*;
@@ -133,52 +134,20 @@ pub struct Comparison {
 /// # Panics
 /// If the mask's length is not that of `a`.
 pub fn compare(a: &Layers, b: &Layers, display: &Display, mask: Option<&[bool]>) -> Comparison {
-    let mut problems = Vec::new();
     if a.size_px != b.size_px {
-        problems.push(Problem::SizesDiffer {
+        let sizes = Problem::SizesDiffer {
             a: a.size_px,
             b: b.size_px,
-        });
+        };
         return Comparison {
             layers: Vec::new(),
-            problems,
+            problems: vec![sizes],
         };
     }
-    let opaque = opaque(a, b);
-    let (opaque_a, opaque_b);
-    let (a, b) = match opaque {
-        None => (a, b),
-        Some(Side::A) => {
-            opaque_a = with_alpha(a);
-            (&opaque_a, b)
-        }
-        Some(Side::B) => {
-            opaque_b = with_alpha(b);
-            (a, &opaque_b)
-        }
-    };
-    problems.extend(missing_layers(a, b));
-    let (shown_a, shown_b);
-    let (a, b, display) = match (a.referred, b.referred) {
-        (Referred::Scene, Referred::Scene) => (a, b, *display),
-        (referred_a, referred_b) => {
-            if referred_a != referred_b {
-                let side = if referred_a == Referred::Scene {
-                    Side::A
-                } else {
-                    Side::B
-                };
-                problems.push(Problem::ToneMapped { side });
-            }
-            (shown_a, shown_b) = (a.displayed(display), b.displayed(display));
-            // The curve is in the values already.
-            let as_it_is = Display {
-                exposure_ev: 0.0,
-                tone_map: crate::ToneMap::None,
-            };
-            (&shown_a, &shown_b, as_it_is)
-        }
-    };
+    let [a, b] = with_alphas(a, b);
+    let mut problems: Vec<Problem> = missing_layers(&a, &b).collect();
+    problems.extend(tone_mapped(&a, &b));
+    let ([a, b], display) = alike_referred(a, b, display);
     let both: Vec<(Layer, Estimate, Estimate)> = Layer::ALL
         .into_iter()
         .filter_map(|layer| Some((layer, a.estimate(layer)?, b.estimate(layer)?)))
@@ -214,15 +183,17 @@ fn missing_layers<'l>(a: &'l Layers, b: &'l Layers) -> impl Iterator<Item = Prob
     })
 }
 
-/// The picture that has no alpha where the other one has: it is opaque.
-fn opaque(a: &Layers, b: &Layers) -> Option<Side> {
+/// The pictures, of which one that has no alpha where the other one has is opaque.
+fn with_alphas<'l>(a: &'l Layers, b: &'l Layers) -> [Cow<'l, Layers>; 2] {
     let has = |image: &Layers, layer| image.get(layer).is_some();
-    let is_opaque = |image: &Layers| !has(image, Layer::Alpha) && has(image, Layer::Beauty);
-    match (has(a, Layer::Alpha), has(b, Layer::Alpha)) {
-        (false, true) if is_opaque(a) => Some(Side::A),
-        (true, false) if is_opaque(b) => Some(Side::B),
-        _ => None,
-    }
+    let alpha_like = |image: &'l Layers, other: &Layers| match has(other, Layer::Alpha)
+        && !has(image, Layer::Alpha)
+        && has(image, Layer::Beauty)
+    {
+        true => Cow::Owned(with_alpha(image)),
+        false => Cow::Borrowed(image),
+    };
+    [alpha_like(a, b), alpha_like(b, a)]
 }
 
 /// An opaque picture with an alpha of 1.
@@ -235,6 +206,33 @@ fn with_alpha(image: &Layers) -> Layers {
         variance: None,
     });
     image
+}
+
+/// The picture that is shown as a display does since the other one is.
+fn tone_mapped(a: &Layers, b: &Layers) -> Option<Problem> {
+    let side = match a.referred {
+        Referred::Scene => Side::A,
+        _ => Side::B,
+    };
+    (a.referred != b.referred).then_some(Problem::ToneMapped { side })
+}
+
+/// The pictures as a display shows them unless both are of a scene, and the display that they still need.
+fn alike_referred<'l>(
+    a: Cow<'l, Layers>,
+    b: Cow<'l, Layers>,
+    display: &Display,
+) -> ([Cow<'l, Layers>; 2], Display) {
+    if (a.referred, b.referred) == (Referred::Scene, Referred::Scene) {
+        return ([a, b], *display);
+    }
+    // The curve is in the values already.
+    let as_it_is = Display {
+        exposure_ev: 0.0,
+        tone_map: crate::ToneMap::None,
+    };
+    let shown = [a, b].map(|image| Cow::Owned(image.displayed(display)));
+    (shown, as_it_is)
 }
 
 fn compare_layer(
