@@ -4,6 +4,7 @@
 
 use crate::light_view::LightViews;
 use crate::pixel_base::PixelBase;
+use crate::prepared::Prepared;
 use crate::resolve::{PointLight, Sample};
 use crate::shade_scratches::{Picks, ScratchPoint, pick_one_pair};
 use crate::shadows::{HitBuffers, MetObject, ShadowPoint, Shadows};
@@ -29,42 +30,16 @@ impl<'a> Shadows<'a> {
         met: &MetObject,
         hit_buffers: &mut [HitBuffers<'a>],
     ) -> DVec3 {
-        let MetObject {
-            origin_m,
-            direction,
-            hit,
-            solid_angle_sr,
-            round,
-            by_base,
-        } = *met;
         let Some((HitBuffers { views, picks }, hit_buffers)) = hit_buffers.split_first_mut() else {
             return DVec3::ZERO;
         };
-        let scene = self.prepared.scene;
-        let seen = SeenHit {
-            hit: &hit,
-            position_m: origin_m + direction * hit.distance_m,
-            to_viewer: -direction,
-        };
-        let across = |normal: DVec3, width_m: f64| {
-            let leaves = normal.dot(direction).min(-MIN_COS);
-            let (e1, e2) = direction.any_orthonormal_pair();
-            [e1, e2].map(|e| width_m * (e - direction * (e.dot(normal) / leaves)))
-        };
-        let width = |solid_angle_sr| width_m(at.point, hit.distance_m, direction, solid_angle_sr);
-        let all_m = width(solid_angle_sr);
-        let tables = &self.prepared.tables;
-        let footprint = |normal| across(normal, all_m);
-        let mut point = surface_point(scene, tables, &seen, footprint);
-        // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
-        let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
-        point.footprint_axes_m = across(point.normal, scratches_m);
-        point.distance_m = viewer_m(at.point, hit.distance_m, direction);
+        let hit = &met.hit;
+        let point = self.met_point(at, met);
         views.look_from(&point);
         // One sequence for all rounds: in a mirror they meet the same place, where the sources that are drawn are then even over them.
-        let seed = (at.seed ^ u32::from(by_base)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
-        let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(&hit);
-        let has_gratings = self.prepared.has_gratings(&hit);
+        let seed = (at.seed ^ u32::from(met.by_base)).wrapping_mul(0x85eb_ca6b) ^ at.depth;
+        let is_scratched = self.prepared.draft.is_none() && self.prepared.is_scratched(hit);
+        let has_gratings = self.prepared.has_gratings(hit);
         if is_scratched || has_gratings {
             views.ready_for_scratches(&point);
         }
@@ -73,7 +48,7 @@ impl<'a> Shadows<'a> {
             object: hit.object,
             pixel: None,
             views,
-            rounds: at.rounds.one(round),
+            rounds: at.rounds.one(met.round),
             seed,
             depth: at.depth + 1,
         };
@@ -101,6 +76,37 @@ impl<'a> Shadows<'a> {
             .light()
             .map(|rgb| Vec3::from(rgb).as_dvec3());
         (base + scratches).max(DVec3::ZERO)
+    }
+
+    /// The surface that a ray has met.
+    fn met_point(&self, at: &ShadowPoint, met: &MetObject) -> SurfacePoint<'_> {
+        let MetObject {
+            origin_m,
+            direction,
+            hit,
+            solid_angle_sr,
+            ..
+        } = *met;
+        let seen = SeenHit {
+            hit: &hit,
+            position_m: origin_m + direction * hit.distance_m,
+            to_viewer: -direction,
+        };
+        let across = |normal: DVec3, width_m: f64| {
+            let leaves = normal.dot(direction).min(-MIN_COS);
+            let (e1, e2) = direction.any_orthonormal_pair();
+            [e1, e2].map(|e| width_m * (e - direction * (e.dot(normal) / leaves)))
+        };
+        let width = |solid_angle_sr| width_m(at.point, hit.distance_m, direction, solid_angle_sr);
+        let all_m = width(solid_angle_sr);
+        let Prepared { scene, tables, .. } = self.prepared;
+        let footprint = |normal| across(normal, all_m);
+        let mut point = surface_point(scene, tables, &seen, footprint);
+        // Rays meet other places each: the scratches of one place stand for those of a wide footprint, which are many.
+        let scratches_m = width(0.0).min(point.coherence_um * 1e-6);
+        point.footprint_axes_m = across(point.normal, scratches_m);
+        point.distance_m = viewer_m(at.point, hit.distance_m, direction);
+        point
     }
 }
 

@@ -160,50 +160,49 @@ impl<'a> LightViews<'a> {
                 .look_from(&under_coat);
         }
         for index in 0..self.lights.len() {
-            let light = self.lights[index];
             self.places.push(u32::MAX);
-            let place = self.views.len() as u32;
-            let radiance = sent(light, point.position_m);
-            if light.cone.is_some() && radiance == DVec3::ZERO {
-                continue;
+            self.look_at(point, index);
+        }
+    }
+
+    /// Looks at a light.
+    fn look_at(&mut self, point: &SurfacePoint, index: usize) {
+        let light = self.lights[index];
+        let radiance = sent(light, point.position_m);
+        if light.cone.is_some() && radiance == DVec3::ZERO {
+            return;
+        }
+        let first = self.vertices.len();
+        match &light.shape {
+            LightShape::Sphere { center_m, radius_m } => {
+                let center = point.surface_from_world(*center_m - point.position_m);
+                if center.z > -radius_m {
+                    let cap = sphere_cap(center, *radius_m);
+                    self.distances_m.push(center.length().max(*radius_m));
+                    self.places[index] = self.views.len() as u32;
+                    self.views.push(LightView::Sphere { cap, radiance });
+                    self.in_scene.push(index);
+                }
             }
-            match &light.shape {
-                LightShape::Sphere { center_m, radius_m } => {
-                    let center = point.surface_from_world(*center_m - point.position_m);
-                    if center.z > -radius_m {
-                        let cap = sphere_cap(center, *radius_m);
-                        self.distances_m.push(center.length().max(*radius_m));
-                        self.views.push(LightView::Sphere { cap, radiance });
-                        self.places[index] = place;
-                        self.in_scene.push(index);
-                    }
-                }
-                LightShape::Polygon {
-                    vertices_m,
-                    two_sided,
-                } => {
-                    let first = self.vertices.len();
-                    self.vertices.extend(
-                        vertices_m
-                            .iter()
-                            .map(|v| point.surface_from_world(*v - point.position_m)),
-                    );
-                    let own = self.vertices[first..].iter();
-                    self.add_outline(
-                        point,
-                        index,
-                        first,
-                        polygon_facing(own.copied(), *two_sided),
-                    );
-                }
-                LightShape::Tube { ends_m, radius_m } => {
-                    let [a, b] = ends_m.map(|end| point.surface_from_world(end - point.position_m));
-                    if let Some(outline) = tube_outline(a, b, *radius_m) {
-                        let first = self.vertices.len();
-                        let corners = (0..TUBE_CORNERS).map(|i| outline.tube_corner(i));
-                        self.vertices.extend(corners);
-                        self.add_outline(point, index, first, (outline.away, 1.0));
-                    }
+            LightShape::Polygon {
+                vertices_m,
+                two_sided,
+            } => {
+                self.vertices.extend(
+                    vertices_m
+                        .iter()
+                        .map(|v| point.surface_from_world(*v - point.position_m)),
+                );
+                let own = self.vertices[first..].iter();
+                let facing = polygon_facing(own.copied(), *two_sided);
+                self.add_outline(point, index, first, facing);
+            }
+            LightShape::Tube { ends_m, radius_m } => {
+                let [a, b] = ends_m.map(|end| point.surface_from_world(end - point.position_m));
+                if let Some(outline) = tube_outline(a, b, *radius_m) {
+                    let corners = (0..TUBE_CORNERS).map(|i| outline.tube_corner(i));
+                    self.vertices.extend(corners);
+                    self.add_outline(point, index, first, (outline.away, 1.0));
                 }
             }
         }

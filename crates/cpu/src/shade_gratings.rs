@@ -6,8 +6,8 @@ use crate::prepared::Prepared;
 use crate::shade_scratches::{Course, Frame, Pick, Picks, ROW_PROFILE, RowSpread, ScratchLight};
 use crate::surface::SurfacePoint;
 use glam::{DVec2, DVec3};
-use hairline_optics::band::{Along, BandPlace, OutlineRoots};
-use hairline_scene::{GrooveGround, GroovePlace};
+use hairline_optics::band::{Along, BandPlace, BandStds, OutlineRoots};
+use hairline_scene::{Grating, GrooveGround, GroovePlace};
 
 /// All gratings under a point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,10 +25,9 @@ impl ShadedGratings {
         point: &SurfacePoint,
         object: u32,
         views: &LightViews,
-        mut picks: Option<&mut Picks>,
+        picks: Option<&mut Picks>,
     ) -> Self {
         let scene = prepared.scene;
-        let environment = scene.environment.as_ref();
         let gratings = &scene.objects[object as usize].gratings;
         let ground = GrooveGround {
             textures: &scene.textures,
@@ -36,7 +35,7 @@ impl ShadedGratings {
             triangle: point.triangle,
         };
         let [position_m, normal] = [point.position_m, point.normal];
-        let seen = |grating: &hairline_scene::Grating| {
+        let seen = |grating: &Grating| {
             grating.seen_from_pixel(&ground, position_m, normal, point.footprint_axes_m)
         };
         // Gratings lie side by side: together they cover all of the surface at most.
@@ -45,9 +44,15 @@ impl ShadedGratings {
             .filter_map(seen)
             .map(|place| place.share)
             .sum();
-        let stds = Frame::new(point).stds;
-        let mut roots = [OutlineRoots::default(), OutlineRoots::default()];
-        let mut sum = Self::default();
+        let mut sum = GratingSum {
+            prepared,
+            point,
+            views,
+            stds: Frame::new(point).stds,
+            roots: Default::default(),
+            picks,
+            sum: Self::default(),
+        };
         for grating in gratings {
             let (Some(seen), Some(table)) = (
                 seen(grating),
@@ -63,51 +68,73 @@ impl ShadedGratings {
                 point.footprint_axes_m,
                 point.coherence_um,
             );
-            let scale = density / covered.max(1.0);
-            let around = views.views.len();
-            // Adds the light of a source, or without a source the energy that the base loses.
-            let mut add = |source: Option<usize>, row: &RowAt, sent: DVec3| {
-                let sent = scale * row.share * sent;
-                let pick = || row.pick(scale);
-                match source {
-                    Some(_) => sum.radiance += sent,
-                    None => sum.taken += sent,
-                }
-                match (&mut picks, source) {
-                    (Some(picks), Some(source)) => picks.add_light(source, sent, pick),
-                    (Some(picks), None) => picks.add_energy(sent, pick),
-                    (None, _) => {}
-                }
-            };
-            let row = |seen: GroovePlace| RowAt::new(point, seen, table);
-            let own = row(seen.of_one_spot());
-            let own_light = own.light(prepared, point);
-            for view in 0..views.views.len() {
-                let place = BandPlace::everywhere();
-                if let Some(sent) = own_light.light(&stds, place, views, view, &mut roots) {
-                    add(Some(view), &own, sent);
-                }
-                let half = (point.wo + views.views[view].bound().axis).with_z(0.0);
-                let along = point.world_from_surface(half);
-                if let Some(across) = grating.grooves_towards(seen, normal, along).map(row)
-                    && let Some(sent) =
-                        (across.light(prepared, point)).light(&stds, place, views, view, &mut roots)
-                {
-                    add(Some(view), &across, sent);
-                }
-            }
-            let mut add_around = |row: &RowAt, light: &ScratchLight| {
-                if let Some(environment) = environment {
-                    add(Some(around), row, light.environment(point, environment));
-                }
-                add(None, row, light.taken_by_row());
-            };
-            add_around(&own, &own_light);
-            for row in grating.all_ways(seen, normal).map(row) {
-                add_around(&row, &row.light(prepared, point));
+            sum.add_grating(grating, seen, table, density / covered.max(1.0));
+        }
+        sum.sum
+    }
+}
+
+/// Sums over the gratings under a point.
+struct GratingSum<'a, 'p> {
+    prepared: &'a Prepared<'a>,
+    point: &'a SurfacePoint<'a>,
+    views: &'a LightViews<'a>,
+    stds: BandStds,
+    roots: [OutlineRoots; 2],
+    picks: Option<&'p mut Picks>,
+    sum: ShadedGratings,
+}
+
+impl GratingSum<'_, '_> {
+    /// Adds what a pixel sees of a grating. `scale` is a factor on its share.
+    fn add_grating(&mut self, grating: &Grating, seen: GroovePlace, table: usize, scale: f64) {
+        let (prepared, point, views) = (self.prepared, self.point, self.views);
+        let row = |seen: GroovePlace| RowAt::new(point, seen, table, scale);
+        let own = row(seen.of_one_spot());
+        let own_light = own.light(prepared, point);
+        for view in 0..views.views.len() {
+            self.add_light(view, &own, &own_light);
+            let half = (point.wo + views.views[view].bound().axis).with_z(0.0);
+            let along = point.world_from_surface(half);
+            if let Some(across) = grating.grooves_towards(seen, point.normal, along).map(row) {
+                self.add_light(view, &across, &across.light(prepared, point));
             }
         }
-        sum
+        self.add_around(&own, &own_light);
+        for row in grating.all_ways(seen, point.normal).map(row) {
+            self.add_around(&row, &row.light(prepared, point));
+        }
+    }
+
+    fn add_light(&mut self, view: usize, row: &RowAt, light: &ScratchLight) {
+        let (place, roots) = (BandPlace::everywhere(), &mut self.roots);
+        if let Some(sent) = light.light(&self.stds, place, self.views, view, roots) {
+            self.add(Some(view), row, sent);
+        }
+    }
+
+    /// Adds the light of the environment, and the energy that the base loses.
+    fn add_around(&mut self, row: &RowAt, light: &ScratchLight) {
+        if let Some(environment) = &self.prepared.scene.environment {
+            let sent = light.environment(self.point, environment);
+            self.add(Some(self.views.views.len()), row, sent);
+        }
+        self.add(None, row, light.taken_by_row());
+    }
+
+    /// Adds the light of a source, or without a source the energy that the base loses.
+    fn add(&mut self, source: Option<usize>, row: &RowAt, sent: DVec3) {
+        let sent = row.share * sent;
+        let pick = || row.pick();
+        match source {
+            Some(_) => self.sum.radiance += sent,
+            None => self.sum.taken += sent,
+        }
+        match (&mut self.picks, source) {
+            (Some(picks), Some(source)) => picks.add_light(source, sent, pick),
+            (Some(picks), None) => picks.add_energy(sent, pick),
+            (None, _) => {}
+        }
     }
 }
 
@@ -115,12 +142,12 @@ impl ShadedGratings {
 struct RowAt {
     tangent: DVec2,
     row: RowSpread,
-    /// Share of the pixel that they cover.
+    /// Share of the pixel that they cover, as many as there are.
     share: f64,
 }
 
 impl RowAt {
-    fn new(point: &SurfacePoint, seen: GroovePlace, table: usize) -> Self {
+    fn new(point: &SurfacePoint, seen: GroovePlace, table: usize, scale: f64) -> Self {
         let tangent = point.surface_from_world(seen.tangent).truncate();
         Self {
             tangent: tangent.normalize_or(DVec2::X),
@@ -129,7 +156,7 @@ impl RowAt {
                 turns_rad: seen.turns_rad,
                 angle_std_rad: seen.angle_std_rad,
             },
-            share: seen.share,
+            share: scale * seen.share,
         }
     }
 
@@ -139,7 +166,7 @@ impl RowAt {
     }
 
     /// Pick of these grooves, whose rays start anywhere under the pixel.
-    fn pick(&self, scale: f64) -> Pick {
+    fn pick(&self) -> Pick {
         Pick {
             course: Course::straight(self.tangent),
             place: BandPlace::everywhere(),
@@ -150,7 +177,7 @@ impl RowAt {
             },
             profile: ROW_PROFILE,
             row: Some(self.row),
-            share: scale * self.share,
+            share: self.share,
             source: 0,
             radiance: DVec3::ZERO,
         }

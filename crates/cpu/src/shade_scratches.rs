@@ -25,7 +25,9 @@ use hairline_index::IndexedSegment;
 use hairline_optics::band::OutlineRoots;
 use hairline_optics::footprint::ScratchShare;
 use hairline_optics::mask::ScratchSums;
+use hairline_optics::table::ScratchTable;
 use hairline_optics::vectors::with_widest;
+use hairline_scene::Environment;
 use lanes::{GROUPS, Group, LANES, Line, SegmentView};
 use light_bounds::LightBounds;
 use places::Places;
@@ -190,64 +192,131 @@ impl Shading<'_, '_> {
             roots,
             ..
         } = &mut *self.shader;
-        let (prepared, points, profile) = (self.prepared, self.points, segment.profile);
-        let table = |i: usize| prepared.scratch_table(points[i].point.table, profile);
-        let course = |i: usize| seen[i / LANES].course(i % LANES, &frames[i], segment.turn_rad);
-        let scratch = |i: usize, course: Course| {
-            ScratchLight::new(points[i].point.wo, course, table(i), profile).by_one_line(node)
-        };
         bounds.find(segment, lit);
-        let surrounding = prepared.scene.environment.as_ref().map(|environment| {
-            let seen = pairs
-                .iter()
-                .map(|(i, _)| (&points[*i], seen[i / LANES].off2(i % LANES)));
-            let mut places = Places::new(along, seen);
-            places.light(|pair| {
-                let (i, _) = pairs[pair];
-                scratch(i, course(i)).environment(points[i].point, environment)
-            });
-            (environment, places)
-        });
+        let mut on = LitSegment {
+            prepared: self.prepared,
+            points: self.points,
+            frames,
+            alike_rad,
+            seen,
+            segment,
+            node,
+            lit,
+            surrounding: None,
+        };
+        on.surrounding = on.surrounding(pairs, along);
         for &(i, share) in pairs.iter() {
             self.counts.pairs += 1;
-            let (point, stds) = (&points[i], &frames[i].stds);
-            let energy = scratch_energy(profile, table(i), point.point.wo.z);
-            let mut radiance = DVec3::ZERO;
+            let point = &self.points[i];
+            let energy = scratch_energy(segment.profile, on.table(i), point.point.wo.z);
             let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
-            if picks.is_some() || !lit.is_empty() || surrounding.is_some() {
-                let (group, lane) = (&seen[i / LANES], i % LANES);
-                let course = course(i);
-                let place = group.place(lane, &frames[i]);
-                let light = scratch(i, course);
-                let pick = || group.pick(lane, &frames[i], segment, course, share.segment);
-                let mut add = |source: usize, sent: DVec3| {
-                    radiance += sent;
-                    if let Some(picks) = &mut picks {
-                        picks.add_light(source, share.segment * sent, pick);
-                    }
-                };
-                for &index in lit.iter() {
-                    if let Some(view) = point.views.view_of(index) {
-                        self.counts.asked += 1;
-                        if let Some(sent) = light.light(stds, place, point.views, view, roots) {
-                            self.counts.lit += 1;
-                            add(view, sent);
-                        }
-                    }
-                }
-                if let Some((environment, places)) = &surrounding {
-                    let alone = || light.environment(point.point, environment);
-                    add(
-                        point.views.views.len(),
-                        places.sent(point, alike_rad[i]).unwrap_or_else(alone),
-                    );
-                }
-                if let Some(picks) = picks {
-                    picks.add_energy(share.segment * DVec3::from(energy), pick);
-                }
+            let mut radiance = DVec3::ZERO;
+            if picks.is_some() || !on.is_dark() {
+                let picks = picks.as_deref_mut();
+                radiance = on.light((i, share), energy, picks, roots, self.counts);
             }
             self.sums[point.index].add(share, energy, radiance.to_array());
         }
+    }
+}
+
+/// A segment under a batch, with what lights it.
+struct LitSegment<'a, 's> {
+    prepared: &'a Prepared<'a>,
+    points: &'a [ScratchPoint<'a>],
+    frames: &'s [Frame],
+    alike_rad: &'s [f64],
+    seen: &'s [SegmentView; GROUPS],
+    segment: &'s IndexedSegment,
+    /// Place of its one line in its band, if it has one.
+    node: Option<f64>,
+    lit: &'s [u32],
+    surrounding: Option<(&'a Environment, Places)>,
+}
+
+impl<'a> LitSegment<'a, '_> {
+    #[inline(always)]
+    fn table(&self, i: usize) -> &'a ScratchTable {
+        let table = self.points[i].point.table;
+        self.prepared.scratch_table(table, self.segment.profile)
+    }
+
+    #[inline(always)]
+    fn course(&self, i: usize) -> Course {
+        self.seen[i / LANES].course(i % LANES, &self.frames[i], self.segment.turn_rad)
+    }
+
+    #[inline(always)]
+    fn scratch(&self, i: usize, course: Course) -> ScratchLight<'a> {
+        let wo = self.points[i].point.wo;
+        ScratchLight::new(wo, course, self.table(i), self.segment.profile).by_one_line(self.node)
+    }
+
+    #[inline(always)]
+    fn is_dark(&self) -> bool {
+        self.lit.is_empty() && self.surrounding.is_none()
+    }
+
+    /// The environment, with its light at a few places of the points.
+    #[inline(always)]
+    fn surrounding(
+        &self,
+        pairs: &[(usize, ScratchShare)],
+        along: DVec2,
+    ) -> Option<(&'a Environment, Places)> {
+        let environment = self.prepared.scene.environment.as_ref()?;
+        let off2 = |i: usize| self.seen[i / LANES].off2(i % LANES);
+        let seen = pairs.iter().map(|(i, _)| (&self.points[*i], off2(*i)));
+        let mut places = Places::new(along, seen);
+        places.light(|pair| {
+            let (i, _) = pairs[pair];
+            let scratch = self.scratch(i, self.course(i));
+            scratch.environment(self.points[i].point, environment)
+        });
+        Some((environment, places))
+    }
+
+    /// The light that the segment sends from one of the points, which picks it.
+    #[inline(always)]
+    fn light(
+        &self,
+        (i, share): (usize, ScratchShare),
+        energy: [f64; 3],
+        mut picks: Option<&mut Picks>,
+        roots: &mut [OutlineRoots; 2],
+        counts: &mut Counts,
+    ) -> DVec3 {
+        let (point, frame) = (&self.points[i], &self.frames[i]);
+        let (group, lane) = (&self.seen[i / LANES], i % LANES);
+        let course = self.course(i);
+        let place = group.place(lane, frame);
+        let light = self.scratch(i, course);
+        let pick = || group.pick(lane, frame, self.segment, course, share.segment);
+        let mut radiance = DVec3::ZERO;
+        let mut add = |source: usize, sent: DVec3| {
+            radiance += sent;
+            if let Some(picks) = &mut picks {
+                picks.add_light(source, share.segment * sent, pick);
+            }
+        };
+        for &index in self.lit {
+            if let Some(view) = point.views.view_of(index) {
+                counts.asked += 1;
+                if let Some(sent) = light.light(&frame.stds, place, point.views, view, roots) {
+                    counts.lit += 1;
+                    add(view, sent);
+                }
+            }
+        }
+        if let Some((environment, places)) = &self.surrounding {
+            let alone = || light.environment(point.point, environment);
+            let sent = places.sent(point, self.alike_rad[i]);
+            add(point.views.views.len(), sent.unwrap_or_else(alone));
+        }
+        if let Some(picks) = picks {
+            picks.add_energy(share.segment * DVec3::from(energy), pick);
+        }
+        radiance
     }
 }
 

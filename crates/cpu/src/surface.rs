@@ -13,7 +13,7 @@ use hairline_optics::ggx::ggx_alpha;
 use hairline_optics::spectrum::Observer;
 use hairline_scene::{MaterialOptics, Scene, ScratchTables};
 
-use textured_hit::{TexturedHit, raised};
+use textured_hit::{MappedNormal, TexturedHit, raised};
 
 /// A shading point. Its local frame has z along the shading normal and the viewer in the x-z plane. Of a surface under a coat it is that of the
 /// coat; [`SurfacePoint::under_coat`] has that of what is under it.
@@ -226,26 +226,10 @@ pub(crate) fn surface_with_bumps<'a>(
     let mesh = &scene.objects[hit.object as usize].mesh;
     let material_index = mesh.triangle_materials[hit.triangle as usize] as usize;
     let optics = &tables.materials[material_index];
-    let has_coat = material.coat.is_some_and(|coat| coat.weight > 0.0);
-    // A coat with a normal map of its own turns another way than what is under it.
-    let as_turns = bumps == BumpSlopes::Turns && !(has_coat && material.has_coat_normals());
-    let under_coat = at.mapped(material.normal_texture, as_turns);
-    let mut coat = point_coat(&at, tables, optics, under_coat.slope_std);
-    let mut normal = under_coat.normal;
-    if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
-        && material.has_coat_normals()
-    {
-        let of_coat = at.mapped(material.coat_normal_texture, as_turns);
-        (normal, coat.slope_std) = (of_coat.normal, of_coat.slope_std);
-    }
+    let (coat, normal, under_coat) = coat_and_normals(&at, tables, optics, bumps);
     let [normal, normal_under_coat] =
         [normal, under_coat.normal].map(|normal| face_viewer(side * normal, to_viewer));
     let ([axis_x, axis_y], wo) = frame(normal, to_viewer);
-    let smooth_turns = at.smooth_turns();
-    let normal_turns = [0, 1].map(|i| {
-        let turn = smooth_turns[i] + under_coat.turns[i];
-        side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)
-    });
     let paint = at.paint(optics);
     SurfacePoint {
         position_m,
@@ -261,7 +245,7 @@ pub(crate) fn surface_with_bumps<'a>(
             true => at.axes,
             false => footprint(normal),
         },
-        normal_turns,
+        normal_turns: normal_turns(&at, &under_coat, [axis_x, axis_y]),
         fresnel: FresnelRgb {
             f0: paint.f0.to_array(),
             f90: paint.f90,
@@ -281,6 +265,42 @@ pub(crate) fn surface_with_bumps<'a>(
         observer: &scene.observer,
         table: optics.table as usize,
     }
+}
+
+/// Turns of the normal over the axes of the footprint, in the frame of the surface.
+fn normal_turns(
+    at: &TexturedHit,
+    under_coat: &MappedNormal,
+    [axis_x, axis_y]: [DVec3; 2],
+) -> [DVec3; 2] {
+    let smooth_turns = at.smooth_turns();
+    [0, 1].map(|i| {
+        let turn = smooth_turns[i] + under_coat.turns[i];
+        at.side * DVec3::new(turn.dot(axis_x), turn.dot(axis_y), 0.0)
+    })
+}
+
+/// The coat at a hit, the normal that is seen, and that under the coat.
+fn coat_and_normals<'a>(
+    at: &TexturedHit,
+    tables: &'a ScratchTables,
+    optics: &MaterialOptics,
+    bumps: BumpSlopes,
+) -> (Option<PointCoat<'a>>, DVec3, MappedNormal) {
+    let material = at.material;
+    let has_coat = material.coat.is_some_and(|coat| coat.weight > 0.0);
+    // A coat with a normal map of its own turns another way than what is under it.
+    let as_turns = bumps == BumpSlopes::Turns && !(has_coat && material.has_coat_normals());
+    let under_coat = at.mapped(material.normal_texture, as_turns);
+    let mut coat = point_coat(at, tables, optics, under_coat.slope_std);
+    let mut normal = under_coat.normal;
+    if let Some(coat) = coat.as_mut().filter(|coat| coat.weight > 0.0)
+        && material.has_coat_normals()
+    {
+        let of_coat = at.mapped(material.coat_normal_texture, as_turns);
+        (normal, coat.slope_std) = (of_coat.normal, of_coat.slope_std);
+    }
+    (coat, normal, under_coat)
 }
 
 /// The coat at a hit, with the slopes of what is under it.

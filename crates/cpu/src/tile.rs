@@ -236,25 +236,7 @@ impl<'a> Picture<'a> {
         cancelled: &'a (dyn Fn() -> bool + Sync),
     ) -> Option<Counts> {
         let width = image.size_px[0] as usize;
-        let tile_rows: Vec<usize> =
-            (self.rows.start / SIDE..self.rows.end.div_ceil(SIDE)).collect();
-        // Rows of the image that lie in each row of tiles.
-        let heights: Vec<usize> = tile_rows
-            .iter()
-            .map(|row| self.rows.end.min((row + 1) * SIDE) - self.rows.start.max(row * SIDE))
-            .collect();
-        if self.shadows.is_some() && image.traced.is_none() {
-            image.traced = Some(Traced {
-                rounds: self.options.batch().count,
-                pixels: vec![TracedPixel::default(); image.pixel_count()],
-            });
-        }
-        let mut layers = Layers::new(image);
-        let parts: Vec<(usize, Layers)> = tile_rows
-            .into_iter()
-            .zip(heights)
-            .map(|(row, height)| (row, layers.split_off_first(height * width)))
-            .collect();
+        let parts = self.rows_of_tiles(image);
         let (done, all) = (AtomicUsize::new(0), parts.len());
         let is_cancelled = AtomicBool::new(false);
         // Tiles are reused: they take long to allocate, and a thread goes from one to the next.
@@ -290,6 +272,24 @@ impl<'a> Picture<'a> {
         let tiles = unused.into_inner().unwrap_or_default();
         let counts = tiles.iter().map(|tile| tile.counts);
         Some(counts.fold(Counts::default(), |a, b| a + b))
+    }
+
+    /// Rows of tiles, with the layers of an image that each fills.
+    fn rows_of_tiles<'i>(&self, image: &'i mut Image) -> Vec<(usize, Layers<'i>)> {
+        if self.shadows.is_some() && image.traced.is_none() {
+            image.traced = Some(Traced {
+                rounds: self.options.batch().count,
+                pixels: vec![TracedPixel::default(); image.pixel_count()],
+            });
+        }
+        let width = image.size_px[0] as usize;
+        let mut layers = Layers::new(image);
+        (self.rows.start / SIDE..self.rows.end.div_ceil(SIDE))
+            .map(|row| {
+                let height = self.rows.end.min((row + 1) * SIDE) - self.rows.start.max(row * SIDE);
+                (row, layers.split_off_first(height * width))
+            })
+            .collect()
     }
 
     /// The surface under one of `samples` samples of a pixel.

@@ -2,11 +2,12 @@
 
 use super::scratch_light::ScratchLight;
 use crate::light_view::{LightView, LightViews};
+use crate::picture::PictureView;
 use crate::sampling::luminance;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hairline_optics::band::{
-    BandFrame, BandLine, BandPlace, BandStds, DrawnChord, OutlineRoots, band_lines,
+    BandFrame, BandLine, BandPlace, BandStds, Cap, DrawnChord, Outline, OutlineRoots, band_lines,
     sphere_band_extent, sphere_chord,
 };
 use hairline_optics::band_environment::EnvironmentCell;
@@ -114,6 +115,23 @@ impl<F: Fn(f64) -> DVec3> Offers<F> {
     }
 }
 
+/// The band that a direction is drawn in, with the numbers in [0, 1) that draw it.
+struct DrawnBand {
+    wo: DVec3,
+    stds: BandStds,
+    line_u: f64,
+    pick_u: f64,
+    chord_u: f64,
+}
+
+impl DrawnBand {
+    /// One line in each part of the band that reaches a light.
+    fn lines(&self, (lowest, highest): (f64, f64)) -> impl Iterator<Item = BandLine> {
+        let lines = band_lines(self.wo.x, lowest, highest, self.stds);
+        (0..lines.count).map(move |i| lines.drawn_line(self.wo, i, self.line_u))
+    }
+}
+
 impl ScratchLight<'_> {
     /// Draws a direction from which a light reaches the viewer off the scratch, in proportion to the luminance from there, by three numbers in
     /// [0, 1). None where there is no light. Other arguments as for [`Self::light`].
@@ -130,20 +148,15 @@ impl ScratchLight<'_> {
         let wo = self.wo + motion.shift * DVec3::X;
         let stds = motion.band(*stds).stds;
         // Draws one line in each part of the band, and one of these lines by the light along it.
+        let band = DrawnBand {
+            wo,
+            stds,
+            line_u,
+            pick_u,
+            chord_u,
+        };
         match light {
-            LightView::Sphere { cap, .. } => {
-                let mut offers = Offers::new(pick_u);
-                let cap = cap.turned(self.frame);
-                let (lowest, highest) = sphere_band_extent(wo, cap);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                for i in 0..lines.count {
-                    let line = lines.drawn_line(wo, i, line_u);
-                    let on_line = sphere_chord(line, cap);
-                    let spectrum = self.spectrum(line, on_line.range(line));
-                    offers.offer(line, on_line.signed(line), move |q| spectrum(q).into());
-                }
-                offers.taken(self.frame, chord_u)
-            }
+            LightView::Sphere { cap, .. } => self.draw_on_sphere(&band, *cap),
             LightView::Polygon {
                 vertices,
                 away,
@@ -151,35 +164,49 @@ impl ScratchLight<'_> {
                 sets,
                 ..
             } => {
-                let mut offers = Offers::new(pick_u);
-                let mut roots = OutlineRoots::default();
                 let outline = views.outline(vertices, *away, *facing, *sets);
-                let picture = views.picture(light);
-                let (lowest, highest) = outline.band_extent(self.frame, wo.x);
-                let lines = band_lines(wo.x, lowest, highest, stds);
-                for i in 0..lines.count {
-                    let line = lines.drawn_line(wo, i, line_u);
-                    outline.roots(self.frame, line, &mut roots);
-                    let spectrum = self.spectrum(line, roots.range);
-                    let of = |radiance: DVec3| {
-                        let spectrum = spectrum.clone();
-                        move |q: f64| radiance * DVec3::from(spectrum(q))
-                    };
-                    let Some(picture) = picture else {
-                        offers.offer(line, roots.signed().iter().copied(), of(DVec3::ONE));
-                        continue;
-                    };
-                    let of_luminance = |q: f64| luminance(spectrum(q).into());
-                    for (low, high, radiance) in
-                        self.picture_parts(line, &roots, picture, of_luminance)
-                    {
-                        let ends = [(-1.0, low), (1.0, high)];
-                        offers.offer(line, ends.into_iter(), of(radiance));
-                    }
-                }
-                offers.taken(self.frame, chord_u)
+                self.draw_on_outline(&band, &outline, views.picture(light))
             }
         }
+    }
+
+    fn draw_on_sphere(&self, band: &DrawnBand, cap: Cap) -> Option<DrawnLight> {
+        let mut offers = Offers::new(band.pick_u);
+        let cap = cap.turned(self.frame);
+        for line in band.lines(sphere_band_extent(band.wo, cap)) {
+            let on_line = sphere_chord(line, cap);
+            let spectrum = self.spectrum(line, on_line.range(line));
+            offers.offer(line, on_line.signed(line), move |q| spectrum(q).into());
+        }
+        offers.taken(self.frame, band.chord_u)
+    }
+
+    fn draw_on_outline(
+        &self,
+        band: &DrawnBand,
+        outline: &Outline,
+        picture: Option<PictureView>,
+    ) -> Option<DrawnLight> {
+        let mut offers = Offers::new(band.pick_u);
+        let mut roots = OutlineRoots::default();
+        for line in band.lines(outline.band_extent(self.frame, band.wo.x)) {
+            outline.roots(self.frame, line, &mut roots);
+            let spectrum = self.spectrum(line, roots.range);
+            let of = |radiance: DVec3| {
+                let spectrum = spectrum.clone();
+                move |q: f64| radiance * DVec3::from(spectrum(q))
+            };
+            let Some(picture) = picture else {
+                offers.offer(line, roots.signed().iter().copied(), of(DVec3::ONE));
+                continue;
+            };
+            let of_luminance = |q: f64| luminance(spectrum(q).into());
+            for (low, high, radiance) in self.picture_parts(line, &roots, picture, of_luminance) {
+                let ends = [(-1.0, low), (1.0, high)];
+                offers.offer(line, ends.into_iter(), of(radiance));
+            }
+        }
+        offers.taken(self.frame, band.chord_u)
     }
 
     /// Draws a direction to the environment, as [`Self::draw_light`], by two numbers in [0, 1). A cell is drawn in proportion to its light, then

@@ -119,6 +119,13 @@ impl Group {
     /// Finds the position of a segment of an object under the footprints; false if no point sees it.
     #[inline(always)]
     pub fn see(&self, segment: &IndexedSegment, object: u32, seen: &mut SegmentView) -> bool {
+        let near = self.near(segment, object);
+        near.is_near.iter().sum::<u64>() != 0 && self.place(segment, &near, seen)
+    }
+
+    /// Finds the points near to the line of a segment.
+    #[inline(always)]
+    fn near(&self, segment: &IndexedSegment, object: u32) -> NearLine {
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
         let n = segment.normal.as_dvec3();
         let (x, y, z) = (&self.axis_x_um, &self.axis_y_um, &self.normal);
@@ -137,7 +144,6 @@ impl Group {
             let end_y = e.x * y[0][i] + e.y * y[1][i] + e.z * y[2][i] - self.at_y_um[i];
             let facing = n.x * z[0][i] + n.y * z[1][i] + n.z * z[2][i];
             let (along_x, along_y) = (end_x - start_x, end_y - start_y);
-            // Distance from the line times the length, and the variance across it times its square.
             length2[i] = along_x * along_x + along_y * along_y;
             area[i] = end_x * start_y - end_y * start_x;
             let (xx, xy, yy) = (along_x * along_x, along_x * along_y, along_y * along_y);
@@ -153,9 +159,29 @@ impl Group {
                 & (self.object[i] == object);
             is_near[i] = u64::from(near);
         }
-        if is_near.iter().sum::<u64>() == 0 {
-            return false;
+        NearLine {
+            start,
+            along,
+            area,
+            length2,
+            variance,
+            is_near,
         }
+    }
+
+    /// Finds the position of a segment under the footprints of the points near to its line; false if none sees it.
+    #[inline(always)]
+    fn place(&self, segment: &IndexedSegment, near: &NearLine, seen: &mut SegmentView) -> bool {
+        let NearLine {
+            start,
+            along,
+            area,
+            length2,
+            variance,
+            is_near,
+        } = near;
+        let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
+        let (z, c) = (&self.normal, &self.covariance_um2);
         let blur_um = f64::from(segment.blur_um);
         let half_turn = 0.5 * f64::from(segment.turn_rad);
         let mut count = 0;
@@ -202,6 +228,19 @@ impl Group {
         }
         count > 0
     }
+}
+
+/// The line of a segment under the footprints of a group.
+struct NearLine {
+    /// Start of the segment, and the way to its end.
+    start: [Lanes; 2],
+    along: [Lanes; 2],
+    /// Distance from the line times the length, and the variance across it times the length's square.
+    area: Lanes,
+    variance: Lanes,
+    length2: Lanes,
+    /// 1 for lanes that are near.
+    is_near: [u64; LANES],
 }
 
 /// A segment under the footprints of a group.

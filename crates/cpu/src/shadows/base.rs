@@ -27,6 +27,23 @@ struct Source {
     per_chance: f64,
 }
 
+impl Source {
+    /// Luminance of its light.
+    fn sent(&self) -> f64 {
+        luminance(self.open.specular + self.open.diffuse)
+    }
+
+    /// The probability with which a ray to it is cast.
+    fn cast_share(&self, candidate: &Candidate) -> f64 {
+        let all = self.sent();
+        if all > 0.0 {
+            (candidate.sent() / (FAINT * all)).min(1.0)
+        } else {
+            1.0
+        }
+    }
+}
+
 /// Rays of both layers of the base.
 #[derive(Default)]
 struct BaseRays {
@@ -75,6 +92,25 @@ struct Candidate {
     weight: BaseRadiance,
 }
 
+impl Candidate {
+    fn sent(&self) -> f64 {
+        luminance(self.weight.specular + self.weight.diffuse).max(0.0)
+    }
+}
+
+/// Draws one of two candidates that stands for both, with the factor on its weight (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global
+/// Illumination, 2005).
+fn one_of_two(a: Candidate, b: Candidate, chance: f64) -> Option<(Candidate, f64)> {
+    let (of_a, of_b) = (a.sent(), b.sent());
+    let all = of_a + of_b;
+    let (candidate, own) = if chance * all < of_a {
+        (a, of_a)
+    } else {
+        (b, of_b)
+    };
+    (all > 0.0).then(|| (candidate, all / own))
+}
+
 /// Rays that carry a smaller share of their source's light are cast as seldom: they count for more then.
 const FAINT: f64 = 0.02;
 
@@ -94,8 +130,8 @@ impl<'a> Shadows<'a> {
                 .into_iter()
                 .collect()
         };
-        let open = sources.iter().fold(BaseRadiance::default(), |sum, it| {
-            sum + it.open.times(DVec3::splat(it.per_chance))
+        let open = sources.iter().fold(BaseRadiance::default(), |sum, source| {
+            sum + source.open.times(DVec3::splat(source.per_chance))
         });
         let around = base.albedo();
         let mut rays = BaseRays {
@@ -107,8 +143,7 @@ impl<'a> Shadows<'a> {
             rays.specular.end_round();
             rays.diffuse.end_round();
         }
-        let sent = |it: &Source| luminance(it.open.specular + it.open.diffuse);
-        let brightest = sources.iter().max_by(|a, b| sent(a).total_cmp(&sent(b)));
+        let brightest = sources.iter().max_by(|a, b| a.sent().total_cmp(&b.sent()));
         let probe = || self.sees_highest(at, brightest.and_then(|it| it.light));
         BaseLight {
             specular: rays.specular.light(probe),
@@ -248,10 +283,6 @@ impl<'a> Shadows<'a> {
             Some(light) => self.to_light(of, light),
             None => self.to_environment(of),
         };
-        let sent = |candidate: &Candidate| {
-            let weight = candidate.weight;
-            luminance(weight.specular + weight.diffuse).max(0.0)
-        };
         let followed = of.drawn.as_ref().and_then(|ray| ray.followed);
         let [_, _, _, chance] = at.random(Purpose::of_source(source.light), round);
         let sees = |candidate: &Candidate| {
@@ -280,28 +311,15 @@ impl<'a> Shadows<'a> {
                     add(&candidate, 1.0, is_seen);
                 }
                 if let Some(candidate) = to_source {
-                    let all = luminance(source.open.specular + source.open.diffuse);
-                    let share = if all > 0.0 {
-                        (sent(&candidate) / (FAINT * all)).min(1.0)
-                    } else {
-                        1.0
-                    };
+                    let share = source.cast_share(&candidate);
                     if chance < share {
                         add(&candidate, 1.0 / share, sees(&candidate));
                     }
                 }
             }
-            // One of the two stands for both (J. Talbot, D. Cline, P. Egbert, Importance Resampling for Global Illumination, 2005).
             (None, Some(a), Some(b)) => {
-                let (of_a, of_b) = (sent(&a), sent(&b));
-                let all = of_a + of_b;
-                if all > 0.0 {
-                    let (candidate, own) = if chance * all < of_a {
-                        (a, of_a)
-                    } else {
-                        (b, of_b)
-                    };
-                    add(&candidate, all / own, sees(&candidate));
+                if let Some((candidate, factor)) = one_of_two(a, b, chance) {
+                    add(&candidate, factor, sees(&candidate));
                 }
             }
             (None, Some(candidate), None) | (None, None, Some(candidate)) => {

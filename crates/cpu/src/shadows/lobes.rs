@@ -83,11 +83,17 @@ impl<'l, 'a> Lobes<'l, 'a> {
             1.0
         };
         let coat = point.coat.zip(base.coat.as_ref());
-        let coat = coat.map(|(it, (part, layer))| {
+        let coat = coat.map(|(coat, (part, layer))| {
             let weight = part.weight;
             // Faint as it is, its highlights are the strongest.
             let share = (weight * luminance(layer.albedo)).max(0.3 * weight);
-            DrawnLobe::new(point, round(it.roughness), it.slope_std, it.fresnel, share)
+            DrawnLobe::new(
+                point,
+                round(coat.roughness),
+                coat.slope_std,
+                coat.fresnel,
+                share,
+            )
         });
         let left = 1.0 - coat.as_ref().map_or(0.0, |coat| coat.share);
         let under_coat = base.under_coat();
