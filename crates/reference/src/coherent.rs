@@ -108,6 +108,14 @@ pub(super) struct FieldResponse {
     pub scratches: DVec3,
 }
 
+impl FieldResponse {
+    /// Adds light that comes from a direction of some density, by the response to it.
+    pub(super) fn add(&mut self, light: DVec3, response: &Self, pdf: f64) {
+        self.base += light * response.base / pdf;
+        self.scratches += light * response.scratches / pdf;
+    }
+}
+
 impl<'a> Field<'a> {
     pub(crate) fn new(
         point: &'a SurfacePoint<'a>,

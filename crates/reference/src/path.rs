@@ -109,16 +109,12 @@ impl Integrator<'_> {
         };
         let point = surface_point(self.scene, &self.tables, &seen, at_a_point);
         let object = hit.object as usize;
-        let reach_sigma = match self.settings.model {
-            Model::Separable => REACH_OF_ENERGY,
-            Model::Full => REACH_OF_AMPLITUDE,
-        };
         let mut views = grooves::gather(
             (&self.grooves, &self.tables.shapes),
             self.widest_um[object],
             object,
             &point,
-            reach_sigma,
+            self.reach_sigma(),
         );
         let row = RowView::drawn(self.scene, object, &self.tables, &point, random);
         let material = &self.scene.materials[point.material];
@@ -134,20 +130,10 @@ impl Integrator<'_> {
                 (response, DVec3::ONE - left, left)
             }
             Model::Full => {
-                let roughness = point.coat.map_or(point.roughness, |coat| coat.roughness);
-                let brushed = point.coat.is_none() && point.facets.is_some();
-                let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA && !brushed;
                 if let Some(row) = &row {
-                    views.extend(row.grooves(random, point.coherence_um, reach_sigma));
+                    views.extend(row.grooves(random, point.coherence_um, self.reach_sigma()));
                 }
-                let field = Field::new(&point, &views, row.as_ref(), smooth, wavelengths, &fresnel);
-                let taken = field.taken();
-                let lobe = if smooth {
-                    DVec3::ZERO
-                } else {
-                    DVec3::ONE - taken
-                };
-                (Response::Full(Box::new(field)), taken, lobe)
+                full(&point, &views, row.as_ref(), wavelengths, &fresnel)
             }
         };
         let vertex = Vertex {
@@ -161,6 +147,14 @@ impl Integrator<'_> {
         Light {
             density: taken,
             ..self.reflected(&vertex, wavelengths)
+        }
+    }
+
+    /// How far grooves reach, in standard deviations of the coherence window.
+    fn reach_sigma(&self) -> f64 {
+        match self.settings.model {
+            Model::Separable => REACH_OF_ENERGY,
+            Model::Full => REACH_OF_AMPLITUDE,
         }
     }
 
@@ -338,6 +332,27 @@ impl Integrator<'_> {
     fn step_m(&self, at_m: DVec3) -> f64 {
         1e-6 * (self.extent_m + at_m.length())
     }
+}
+
+/// The response of the whole field, what it takes from the base, and the share of the base's specular reflection that it leaves.
+fn full<'a>(
+    point: &'a SurfacePoint<'a>,
+    views: &'a [GrooveView],
+    row: Option<&RowView<'a>>,
+    wavelengths: &'a Wavelengths,
+    fresnel: &'a SpectralFresnel<'a>,
+) -> (Response<'a>, DVec3, DVec3) {
+    let roughness = point.coat.map_or(point.roughness, |coat| coat.roughness);
+    let brushed = point.coat.is_none() && point.facets.is_some();
+    let smooth = ggx_alpha(roughness) <= GGX_MIN_ALPHA && !brushed;
+    let field = Field::new(point, views, row, smooth, wavelengths, fresnel);
+    let taken = field.taken();
+    let lobe = if smooth {
+        DVec3::ZERO
+    } else {
+        DVec3::ONE - taken
+    };
+    (Response::Full(Box::new(field)), taken, lobe)
 }
 
 fn lobes<'a>(

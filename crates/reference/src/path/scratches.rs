@@ -30,61 +30,75 @@ impl Integrator<'_> {
         wavelengths: &Wavelengths,
     ) -> DVec3 {
         let mut sum = DVec3::ZERO;
-        for (g, lobe) in lobes.iter().enumerate() {
-            let axes = world_axes(lobe.frame, vertex.point);
-            for light in 0..self.lights.len() {
-                let [along, across] =
-                    axes.map(|axis| self.lights.extent(light, vertex.point.position_m, axis));
-                let Some(directions) = lobe.directions(along, across) else {
-                    continue;
-                };
-                let draws = f64::from(GROOVE_DRAWS);
-                for draw in 0..GROOVE_DRAWS {
-                    let [u, v, ..] = vertex.random.four(Purpose::GrooveLight {
-                        groove: g as u32,
-                        light: light as u32,
-                        draw,
-                    });
-                    let u = (f64::from(draw) + u) / draws;
-                    let Some(drawn) = directions.sample(u, v) else {
-                        continue;
-                    };
-                    let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
-                    if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
-                        && !self.is_hidden(vertex.point, light, direction, hit.distance_m)
-                    {
-                        let value = lobe.eval(&drawn) / (draws * drawn.pdf);
-                        sum += hit.radiance * value;
-                    }
-                }
-            }
-            let Some(environment) = &self.scene.environment else {
-                continue;
-            };
-            let Some(directions) = lobe.directions((-1.0, 1.0), (-1.0, 1.0)) else {
-                continue;
-            };
-            for draw in 0..ENVIRONMENT_DRAWS {
-                let purpose = Purpose::GrooveEnvironment {
-                    groove: g as u32,
-                    draw,
-                };
-                let [u, v, ..] = vertex.random.four(purpose);
-                let v = (f64::from(draw) + v) / f64::from(ENVIRONMENT_DRAWS);
-                if let Some(drawn) = directions.sample(u, v) {
-                    let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
-                    if self.next_surface(vertex, direction).is_none() {
-                        let value = lobe.eval(&drawn) / drawn.pdf;
-                        sum +=
-                            environment.radiance(direction) * value / f64::from(ENVIRONMENT_DRAWS);
-                    }
-                }
-            }
+        for (groove, lobe) in (0..).zip(lobes) {
+            self.add_lights_off_a_groove(vertex, (groove, lobe), &mut sum);
+            self.add_environment_off_a_groove(vertex, (groove, lobe), &mut sum);
         }
         if vertex.depth < self.settings.bounces {
             sum += self.bounce_off_a_groove(vertex, lobes, wavelengths);
         }
         sum
+    }
+
+    fn add_lights_off_a_groove(
+        &self,
+        vertex: &Vertex,
+        (groove, lobe): (u32, &Lobe),
+        sum: &mut DVec3,
+    ) {
+        let axes = world_axes(lobe.frame, vertex.point);
+        for light in 0..self.lights.len() {
+            let [along, across] =
+                axes.map(|axis| self.lights.extent(light, vertex.point.position_m, axis));
+            let Some(directions) = lobe.directions(along, across) else {
+                continue;
+            };
+            let draws = f64::from(GROOVE_DRAWS);
+            for draw in 0..GROOVE_DRAWS {
+                let [u, v, ..] = vertex.random.four(Purpose::GrooveLight {
+                    groove,
+                    light: light as u32,
+                    draw,
+                });
+                let u = (f64::from(draw) + u) / draws;
+                let Some(drawn) = directions.sample(u, v) else {
+                    continue;
+                };
+                let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
+                if let Some(hit) = self.lights.hit(light, vertex.point.position_m, direction)
+                    && !self.is_hidden(vertex.point, light, direction, hit.distance_m)
+                {
+                    let value = lobe.eval(&drawn) / (draws * drawn.pdf);
+                    *sum += hit.radiance * value;
+                }
+            }
+        }
+    }
+
+    fn add_environment_off_a_groove(
+        &self,
+        vertex: &Vertex,
+        (groove, lobe): (u32, &Lobe),
+        sum: &mut DVec3,
+    ) {
+        let Some(environment) = &self.scene.environment else {
+            return;
+        };
+        let Some(directions) = lobe.directions((-1.0, 1.0), (-1.0, 1.0)) else {
+            return;
+        };
+        for draw in 0..ENVIRONMENT_DRAWS {
+            let purpose = Purpose::GrooveEnvironment { groove, draw };
+            let [u, v, ..] = vertex.random.four(purpose);
+            let v = (f64::from(draw) + v) / f64::from(ENVIRONMENT_DRAWS);
+            if let Some(drawn) = directions.sample(u, v) {
+                let direction = vertex.world(lobe.frame.surface_from_band(drawn.wi));
+                if self.next_surface(vertex, direction).is_none() {
+                    let value = lobe.eval(&drawn) / drawn.pdf;
+                    *sum += environment.radiance(direction) * value / f64::from(ENVIRONMENT_DRAWS);
+                }
+            }
+        }
     }
 
     /// Light from further surfaces off one groove, which is drawn by its share.
@@ -126,79 +140,97 @@ impl Integrator<'_> {
         field: &Field,
         wavelengths: &Wavelengths,
     ) -> FieldResponse {
-        let point = vertex.point;
         let mut sum = FieldResponse {
             base: DVec3::ZERO,
             scratches: DVec3::ZERO,
         };
-        let mut add = |light: DVec3, response: FieldResponse, pdf: f64| {
-            sum.base += light * response.base / pdf;
-            sum.scratches += light * response.scratches / pdf;
-        };
-        let draws = f64::from(FIELD_DRAWS);
         for light in 0..self.lights.len() {
-            let from = point.position_m;
-            let directions = field.directions(|axis| {
-                let axis = point.world_from_surface(axis.extend(0.0));
-                self.lights.extent(light, from, axis)
-            });
-            for draw in 0..FIELD_DRAWS {
-                let [pick, u, v, _] = vertex.random.four(Purpose::FieldLight {
-                    light: light as u32,
-                    draw,
-                });
-                let wi = match directions.sample((f64::from(draw) + pick) / draws, u, v) {
-                    DrawnDirection::Direction(wi) => wi,
-                    DrawnDirection::Elsewhere(_) => self
-                        .lights
-                        .sample(light, from, DVec2::new(u, v))
-                        .map(|to| point.surface_from_world(to.direction)),
-                };
-                let Some(wi) = wi.filter(|wi| wi.z > MIN_COS) else {
-                    continue;
-                };
-                let direction = vertex.world(wi);
-                if let Some(hit) = self.lights.hit(light, from, direction)
-                    && !self.is_hidden(point, light, direction, hit.distance_m)
-                {
-                    let elsewhere = self.lights.pdf(light, from, direction) / wi.z;
-                    let pdf = draws * directions.pdf(wi, elsewhere);
-                    add(hit.radiance, field.eval(wi), pdf);
-                }
-            }
+            self.add_light_off_the_field(vertex, field, light, &mut sum);
         }
         let bounces = vertex.depth < self.settings.bounces;
         if self.scene.environment.is_some() || bounces {
-            let directions = field.directions(|_| (-1.0, 1.0));
-            let draws = f64::from(ENVIRONMENT_DRAWS);
-            // One of the draws continues the path, or paths would multiply. Each draw has its own part of the mixture, so any
-            // of them may.
-            let [goes_on, ..] = vertex.random.four(Purpose::Bounce);
-            let goes_on = (goes_on * draws) as u32;
-            for draw in 0..ENVIRONMENT_DRAWS {
-                let [pick, u, v, _] = vertex.random.four(Purpose::FieldEnvironment { draw });
-                let pick = (f64::from(draw) + pick) / draws;
-                let Some(wi) = self.draw_all_around(point, &directions, pick, u, v) else {
-                    continue;
-                };
-                let direction = vertex.world(wi);
-                let pdf = draws * directions.pdf(wi, self.all_around_pdf(direction, wi));
-                match (
-                    self.next_surface(vertex, direction),
-                    &self.scene.environment,
-                ) {
-                    (Some(hit), _) if bounces && draw == goes_on => {
-                        let beyond = draws * self.next_light(vertex, direction, &hit, wavelengths);
-                        add(beyond, field.eval(wi), pdf);
-                    }
-                    (None, Some(environment)) => {
-                        add(environment.radiance(direction), field.eval(wi), pdf);
-                    }
-                    _ => {}
-                }
-            }
+            self.add_surroundings_off_the_field(vertex, field, wavelengths, &mut sum);
         }
         sum
+    }
+
+    fn add_light_off_the_field(
+        &self,
+        vertex: &Vertex,
+        field: &Field,
+        light: usize,
+        sum: &mut FieldResponse,
+    ) {
+        let point = vertex.point;
+        let draws = f64::from(FIELD_DRAWS);
+        let from = point.position_m;
+        let directions = field.directions(|axis| {
+            let axis = point.world_from_surface(axis.extend(0.0));
+            self.lights.extent(light, from, axis)
+        });
+        for draw in 0..FIELD_DRAWS {
+            let [pick, u, v, _] = vertex.random.four(Purpose::FieldLight {
+                light: light as u32,
+                draw,
+            });
+            let wi = match directions.sample((f64::from(draw) + pick) / draws, u, v) {
+                DrawnDirection::Direction(wi) => wi,
+                DrawnDirection::Elsewhere(_) => self
+                    .lights
+                    .sample(light, from, DVec2::new(u, v))
+                    .map(|to| point.surface_from_world(to.direction)),
+            };
+            let Some(wi) = wi.filter(|wi| wi.z > MIN_COS) else {
+                continue;
+            };
+            let direction = vertex.world(wi);
+            if let Some(hit) = self.lights.hit(light, from, direction)
+                && !self.is_hidden(point, light, direction, hit.distance_m)
+            {
+                let elsewhere = self.lights.pdf(light, from, direction) / wi.z;
+                let pdf = draws * directions.pdf(wi, elsewhere);
+                sum.add(hit.radiance, &field.eval(wi), pdf);
+            }
+        }
+    }
+
+    /// Adds light of the environment and of further surfaces.
+    fn add_surroundings_off_the_field(
+        &self,
+        vertex: &Vertex,
+        field: &Field,
+        wavelengths: &Wavelengths,
+        sum: &mut FieldResponse,
+    ) {
+        let bounces = vertex.depth < self.settings.bounces;
+        let directions = field.directions(|_| (-1.0, 1.0));
+        let draws = f64::from(ENVIRONMENT_DRAWS);
+        // One of the draws continues the path, or paths would multiply. Each draw has its own part of the mixture, so any
+        // of them may.
+        let [goes_on, ..] = vertex.random.four(Purpose::Bounce);
+        let goes_on = (goes_on * draws) as u32;
+        for draw in 0..ENVIRONMENT_DRAWS {
+            let [pick, u, v, _] = vertex.random.four(Purpose::FieldEnvironment { draw });
+            let pick = (f64::from(draw) + pick) / draws;
+            let Some(wi) = self.draw_all_around(vertex.point, &directions, pick, u, v) else {
+                continue;
+            };
+            let direction = vertex.world(wi);
+            let pdf = draws * directions.pdf(wi, self.all_around_pdf(direction, wi));
+            match (
+                self.next_surface(vertex, direction),
+                &self.scene.environment,
+            ) {
+                (Some(hit), _) if bounces && draw == goes_on => {
+                    let beyond = draws * self.next_light(vertex, direction, &hit, wavelengths);
+                    sum.add(beyond, &field.eval(wi), pdf);
+                }
+                (None, Some(environment)) => {
+                    sum.add(environment.radiance(direction), &field.eval(wi), pdf);
+                }
+                _ => {}
+            }
+        }
     }
 
     /// A direction of the surface's frame by the field, or where the field may send light off its peaks: by the
