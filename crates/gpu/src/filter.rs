@@ -79,24 +79,18 @@ impl FilterPasses {
         canvas: &Canvas,
     ) -> Result<(), Error> {
         let films: Vec<_> = canvas.films().collect();
-        let traced: Vec<&FilmTraced> = films
-            .iter()
-            .filter_map(|(_, film)| film.traced.as_ref())
-            .collect();
+        let traced = films.iter().map(|(_, film)| film.traced.as_ref());
         // A band that has none yet is not to be read.
-        if traced.len() < films.len() {
+        let Some(traced) = traced.collect::<Option<Vec<&FilmTraced>>>() else {
             return Ok(());
-        }
+        };
         let size_px = canvas.size_px();
         let per_layer = 2 * films.len() as u64 + u64::from(PASSES) + 1;
-        let buffers = match self.buffers.take() {
-            Some(buffers)
-                if buffers.size_px == size_px
-                    && buffers.settings_max >= per_layer * u64::from(LAYERS) =>
-            {
-                buffers
-            }
-            _ => FilterBuffers::new(gpu, size_px, per_layer * u64::from(LAYERS)).await?,
+        let settings_max = per_layer * u64::from(LAYERS);
+        let last = self.buffers.take();
+        let buffers = match last.filter(|last| last.have_room(size_px, settings_max)) {
+            Some(last) => last,
+            None => FilterBuffers::new(gpu, size_px, settings_max).await?,
         };
         let mut settings = Vec::new();
         let mut run = |pass: &Pass, film, turn, own, size_px: [u32; 2]| {
@@ -131,12 +125,7 @@ impl FilterPasses {
                 run(&self.film, film, at, in_band(rows), size_px);
             }
         }
-        let mut bytes = Vec::with_capacity(settings.len() * SETTINGS_STRIDE as usize);
-        for one in &settings {
-            bytes.extend_from_slice(bytemuck::bytes_of(one));
-            bytes.resize(bytes.len().next_multiple_of(SETTINGS_STRIDE as usize), 0);
-        }
-        gpu.queue.write_buffer(&buffers.settings, 0, &bytes);
+        buffers.write(gpu, &settings);
         self.buffers = Some(buffers);
         Ok(())
     }
@@ -245,5 +234,18 @@ impl FilterBuffers {
             settings: gpu.buffer("filter settings", bytes, usage).await?,
             settings_max,
         })
+    }
+    fn have_room(&self, size_px: [u32; 2], settings_max: u64) -> bool {
+        self.size_px == size_px && self.settings_max >= settings_max
+    }
+
+    /// Writes the settings of all dispatches.
+    fn write(&self, gpu: &Gpu, settings: &[FilterSettings]) {
+        let mut bytes = Vec::with_capacity(settings.len() * SETTINGS_STRIDE as usize);
+        for one in settings {
+            bytes.extend_from_slice(bytemuck::bytes_of(one));
+            bytes.resize(bytes.len().next_multiple_of(SETTINGS_STRIDE as usize), 0);
+        }
+        gpu.queue.write_buffer(&self.settings, 0, &bytes);
     }
 }

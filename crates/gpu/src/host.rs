@@ -107,15 +107,15 @@ pub(crate) fn gratings(
             object.mesh.materials()
         };
         let own = object.gratings.iter();
-        own.flat_map(|it| materials.iter().map(move |material| (it, *material)))
-            .filter_map(|(it, material)| {
-                let table = tables.grating_table(it, material)?;
+        own.flat_map(|laid| materials.iter().map(move |material| (laid, *material)))
+            .filter_map(|(laid, material)| {
+                let table = tables.grating_table(laid, material)?;
                 let mark = match tables.tables[table].by_incidence {
                     true => TABLE_BY_INCIDENCE,
                     false => 0,
                 };
                 let numbers = [material as u32, table as u32 | mark];
-                Some(grating(it, numbers, array, origin_m))
+                Some(grating(laid, numbers, array, origin_m))
             })
             .collect()
     };
@@ -130,51 +130,14 @@ const GROOVES_BY_V: u32 = 4;
 /// Twin: grating_pairs.wgsl.
 const TABLE_BY_INCIDENCE: u32 = 1 << 31;
 
-/// Twin of the kinds: gratings.wgsl.
 fn grating(
     grating: &hairline_scene::Grating,
     [material, table]: [u32; 2],
     array: &TextureArray,
     origin_m: DVec3,
 ) -> Grating {
-    let (mut maps, mut directions) = (0, None);
-    let (mut along_row, mut spacing_m) = (DVec3::ZERO, 0.0);
-    let (axis, center_m, kind, curvature_per_m) = match grating.field {
-        GrooveField::Along {
-            direction,
-            center_m,
-        } => (direction.normalize_or_zero(), center_m, 0, 0.0),
-        GrooveField::Around {
-            axis,
-            center_m,
-            bearing,
-        } => {
-            let (kind, curvature_per_m) = match bearing {
-                Bearing::Circular => (1, 0.0),
-                Bearing::Radial => (2, 0.0),
-                Bearing::Spun { curvature_per_m } => (3, curvature_per_m),
-            };
-            (axis, center_m, kind, curvature_per_m)
-        }
-        GrooveField::Spots {
-            axis,
-            center_m,
-            along_row: along,
-            spacing_m: spacing,
-        } => {
-            (along_row, spacing_m) = (along, spacing);
-            (axis, center_m, 1, 0.0)
-        }
-        GrooveField::ByUv { uv, center_m } => {
-            maps |= if uv.along_v {
-                GROOVES_BY_V
-            } else {
-                GROOVES_BY_U
-            };
-            directions = uv.directions;
-            (DVec3::ZERO, center_m, 0, 0.0)
-        }
-    };
+    let field = groove_field(&grating.field, array, origin_m);
+    let mut maps = field.maps;
     let mut tiles = Mat4::ZERO;
     if let Some(GroovePicture {
         lie: PictureLie::FromThreeSides { tiles_from_world },
@@ -186,10 +149,6 @@ fn grating(
         tiles = from_origin.as_mat4();
     }
     Grating {
-        axis: axis.as_vec3().to_array(),
-        kind,
-        center_m: relative(center_m, origin_m),
-        curvature_per_m: curvature_per_m as f32,
         radii_m: grating.radii_m.map(|radius| radius.min(1e9) as f32),
         coverage: grating.coverage as f32,
         angle_std_rad: grating.angle_std_rad as f32,
@@ -205,9 +164,59 @@ fn grating(
         tiles_y: tiles.row(1).to_array(),
         tiles_z: tiles.row(2).to_array(),
         mask: array.packed(grating.mask.map(|mask| mask.texture)),
-        directions: array.packed(directions),
-        along_row: along_row.as_vec3().to_array(),
-        spacing_m: spacing_m as f32,
+        ..field
+    }
+}
+
+/// A grating's numbers about the directions of its grooves. Twin of the kinds: gratings.wgsl.
+fn groove_field(field: &GrooveField, array: &TextureArray, origin_m: DVec3) -> Grating {
+    let about = |axis: DVec3, center_m: DVec3| Grating {
+        axis: axis.as_vec3().to_array(),
+        center_m: relative(center_m, origin_m),
+        directions: array.packed(None),
+        ..Grating::default()
+    };
+    match *field {
+        GrooveField::Along {
+            direction,
+            center_m,
+        } => about(direction.normalize_or_zero(), center_m),
+        GrooveField::Around {
+            axis,
+            center_m,
+            bearing,
+        } => {
+            let (kind, curvature_per_m) = match bearing {
+                Bearing::Circular => (1, 0.0),
+                Bearing::Radial => (2, 0.0),
+                Bearing::Spun { curvature_per_m } => (3, curvature_per_m as f32),
+            };
+            Grating {
+                kind,
+                curvature_per_m,
+                ..about(axis, center_m)
+            }
+        }
+        GrooveField::Spots {
+            axis,
+            center_m,
+            along_row,
+            spacing_m,
+        } => Grating {
+            kind: 1,
+            along_row: along_row.as_vec3().to_array(),
+            spacing_m: spacing_m as f32,
+            ..about(axis, center_m)
+        },
+        GrooveField::ByUv { uv, center_m } => Grating {
+            maps: if uv.along_v {
+                GROOVES_BY_V
+            } else {
+                GROOVES_BY_U
+            },
+            directions: array.packed(uv.directions),
+            ..about(DVec3::ZERO, center_m)
+        },
     }
 }
 

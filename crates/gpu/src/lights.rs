@@ -196,24 +196,7 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
         let (center_m, radius_m) = light.bounding_sphere();
         let own = vertices_m(light);
         let first_vertex = vertices.len() as u32;
-        // Vertices of a tube hold its radius too.
-        let w = match light.shape {
-            LightShape::Tube { radius_m, .. } => radius_m as f32,
-            _ => 0.0,
-        };
-        vertices.extend(own.iter().map(|vertex| {
-            let [x, y, z] = relative(*vertex, origin_m);
-            [x, y, z, w]
-        }));
-        if let Some(doors) = doors(light) {
-            let across = doors.across.extend(0.0).to_array();
-            let places = [across, doors.tans, doors.per_tan()];
-            vertices.extend(places.map(|place| place.map(|x| x as f32)));
-        }
-        if light.picture.is_some() {
-            let [x, y] = array.packed(light.picture).map(f32::from_bits);
-            vertices.push([x, y, 0.0, 0.0]);
-        }
+        add_places(light, array, origin_m, &mut vertices);
         let bounded = layout::Light {
             radiance: light.radiance.map(|c| c as f32),
             center_m: relative(center_m, origin_m),
@@ -255,6 +238,28 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
     let mut texels = bytemuck::cast_slice(&lights).to_vec();
     texels.extend_from_slice(bytemuck::cast_slice(&vertices));
     texels
+}
+
+/// Adds the entries of a light in the array of vertices.
+fn add_places(light: &Light, array: &TextureArray, origin_m: DVec3, vertices: &mut Vec<[f32; 4]>) {
+    // Vertices of a tube hold its radius too.
+    let w = match light.shape {
+        LightShape::Tube { radius_m, .. } => radius_m as f32,
+        _ => 0.0,
+    };
+    vertices.extend(vertices_m(light).iter().map(|vertex| {
+        let [x, y, z] = relative(*vertex, origin_m);
+        [x, y, z, w]
+    }));
+    if let Some(doors) = doors(light) {
+        let across = doors.across.extend(0.0).to_array();
+        let places = [across, doors.tans, doors.per_tan()];
+        vertices.extend(places.map(|place| place.map(|x| x as f32)));
+    }
+    if light.picture.is_some() {
+        let [x, y] = array.packed(light.picture).map(f32::from_bits);
+        vertices.push([x, y, 0.0, 0.0]);
+    }
 }
 
 /// Number of texels that [`packed`] makes.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bytemuck::Pod;
+use glam::DVec3;
 use hairline_index::ScratchIndex;
 use wgpu::BufferUsages;
 
@@ -44,6 +45,10 @@ impl SceneBuffers {
     /// The tree over the segments.
     pub(crate) fn scratch_nodes(&self) -> Vec<ScratchNode> {
         host::nodes(&self.index, self.vertices.origin_m)
+    }
+
+    fn has_segments(&self, index: &Arc<ScratchIndex>, origin_m: DVec3) -> bool {
+        Arc::ptr_eq(&self.index, index) && self.vertices.origin_m == origin_m
     }
 
     /// Uploads the arrays that `last` does not have.
@@ -89,21 +94,14 @@ impl SceneBuffers {
             async |elements| rows::upload(transfer, light_rows, elements).await,
         );
         let lights = lights.await?;
-        let last_scratches = last
-            .filter(|last| Arc::ptr_eq(&last.index, index) && last.vertices.origin_m == origin_m);
-        let segments = match last_scratches {
+        let segments = match last.filter(|last| last.has_segments(index, origin_m)) {
             Some(last) => last.segments.clone(),
             None => rows::upload(transfer, segments, &host::segments(index, origin_m)).await?,
         };
         let buffers = [&vertices.buffer, &objects.there];
         let rows = [&materials.there, &lights.there, &segments];
-        let resources: Vec<_> = buffers
-            .into_iter()
-            .map(wgpu::Buffer::as_entire_binding)
-            .chain(rows.into_iter().map(wgpu::BindingResource::TextureView))
-            .collect();
         Ok(Self {
-            group: bind(transfer.gpu, "scene", &layouts.scene, &resources),
+            group: group(transfer.gpu, layouts, buffers, rows),
             vertices,
             objects,
             gratings,
@@ -113,6 +111,18 @@ impl SceneBuffers {
             segments,
         })
     }
+}
+
+fn group(
+    gpu: &Gpu,
+    layouts: &Layouts,
+    buffers: [&wgpu::Buffer; 2],
+    rows: [&wgpu::TextureView; 3],
+) -> wgpu::BindGroup {
+    let buffers = buffers.into_iter().map(wgpu::Buffer::as_entire_binding);
+    let rows = rows.into_iter().map(wgpu::BindingResource::TextureView);
+    let resources: Vec<_> = buffers.chain(rows).collect();
+    bind(gpu, "scene", &layouts.scene, &resources)
 }
 
 /// An array so small that a copy stays on the host, to be compared.

@@ -9,7 +9,7 @@ use crate::frame::Rounds;
 use crate::layout::ShadowRound;
 use crate::lights::{self, LightKind};
 use crate::shadow_buffers::ShadowBuffers;
-use crate::shadow_picks::{RayBuffers, Scratched};
+use crate::shadow_picks::{PickPasses, RayBuffers, Scratched};
 use crate::shadows::Shadows;
 use crate::sizes::CHUNKS;
 use crate::strip::{BounceBuffers, StripBuffers};
@@ -52,7 +52,7 @@ impl StripRays<'_, '_> {
         rounds: Rounds,
     ) -> Result<(), Error> {
         let Self { view, points, .. } = *self;
-        let (gpu, groups) = (&self.strip.gpu, &on.groups);
+        let gpu = &self.strip.gpu;
         let mut shadow_buffers = match buffers.shadows.take() {
             Some(shadow_buffers) => shadow_buffers,
             None => ShadowBuffers::new(gpu).await?,
@@ -85,35 +85,46 @@ impl StripRays<'_, '_> {
                 shadow_buffers.write(gpu, &next);
                 let rays = self.ray_buffers(buffers, &shadow_buffers);
                 self.strip.submit(self.view, |recording| {
-                    shadows.record_base_round(kind, recording, rays, groups);
+                    shadows.record_base_round(kind, recording, rays, &on.groups);
                 });
             }
         }
         next.ends_round = 1;
         for (source, by) in (light_count + 1..).zip(&shadows.by_picks) {
-            let most = shadow_buffers
-                .make_room_for_picks(gpu, points, lanes, next.rounds)
-                .await?;
             next.source = source;
             next.way = by.way() as u32;
-            for round in 0..next.rounds {
-                next.round = round;
-                if round % most == 0 {
-                    next.first_pick = round;
-                    next.picks = most.min(next.rounds - round);
-                }
-                shadow_buffers.write(gpu, &next);
-                let rays = self.ray_buffers(buffers, &shadow_buffers);
-                self.strip.submit(self.view, |recording| {
-                    if round == next.first_pick {
-                        by.record_picks(recording, rays, on);
-                    }
-                    shadows.record_picked_round(by, recording, rays, groups);
-                });
-            }
+            let room = shadow_buffers.make_room_for_picks(gpu, points, lanes, next.rounds);
+            let most = room.await?;
+            let rays = self.ray_buffers(buffers, &shadow_buffers);
+            self.picked_rounds((shadows, by), rays, on, next, most);
         }
         buffers.shadows = Some(shadow_buffers);
         Ok(())
+    }
+
+    /// The rounds from one kind of picks, of which buffers hold those of so many rounds.
+    fn picked_rounds(
+        &self,
+        (shadows, by): (&Shadows, &PickPasses),
+        rays: RayBuffers,
+        on: &Scratched,
+        mut next: ShadowRound,
+        most: u32,
+    ) {
+        for round in 0..next.rounds {
+            next.round = round;
+            if round % most == 0 {
+                next.first_pick = round;
+                next.picks = most.min(next.rounds - round);
+            }
+            rays.shadows.write(&self.strip.gpu, &next);
+            self.strip.submit(self.view, |recording| {
+                if round == next.first_pick {
+                    by.record_picks(recording, rays, on);
+                }
+                shadows.record_picked_round(by, recording, rays, &on.groups);
+            });
+        }
     }
 
     fn ray_buffers<'a>(

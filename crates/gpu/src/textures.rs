@@ -50,11 +50,7 @@ impl SceneTextures {
         last: Option<&Self>,
     ) -> Result<Self, Error> {
         let Source { scene, tables, .. } = *source;
-        let same_tables = |last: &&Self| {
-            (&last.metals, &last.shapes) == (&tables.metals, &tables.shapes)
-                && last.grating_spectra == tables.grating_spectra
-        };
-        let scratch_tables = match last.filter(same_tables) {
+        let scratch_tables = match last.filter(|last| last.has_tables(tables)) {
             Some(last) => last.scratch_tables.clone(),
             None => scratch_tables(transfer, tables).await?,
         };
@@ -65,15 +61,7 @@ impl SceneTextures {
         };
         let lobes = match last {
             Some(last) => last.lobes.clone(),
-            None => [
-                lobe(
-                    transfer,
-                    "albedo table",
-                    lobe_table::albedo_table().texels(),
-                )
-                .await?,
-                lobe(transfer, "lobe shapes", lobe_table::shape_texels()).await?,
-            ],
+            None => lobes(transfer).await?,
         };
         let environment = scene.environment.as_ref();
         let maps = match last.filter(|last| same_map(last.environment.as_ref(), environment)) {
@@ -111,6 +99,11 @@ impl SceneTextures {
             textures: Arc::clone(&scene.textures),
             array,
         })
+    }
+
+    fn has_tables(&self, tables: &ScratchTables) -> bool {
+        (&self.metals, &self.shapes) == (&tables.metals, &tables.shapes)
+            && self.grating_spectra == tables.grating_spectra
     }
 }
 
@@ -175,6 +168,15 @@ async fn fresnel_curves(
     let texels = bytemuck::cast_slice(&texels);
     transfer.write_texture(what, &texture, TexturePosition::default(), size, texels);
     Ok(texture.create_view(&Default::default()))
+}
+
+/// Albedos and shapes of lobes.
+async fn lobes(transfer: &mut Transfer<'_>) -> Result<[wgpu::TextureView; 2], Error> {
+    let albedo = lobe_table::albedo_table().texels();
+    Ok([
+        lobe(transfer, "albedo table", albedo).await?,
+        lobe(transfer, "lobe shapes", lobe_table::shape_texels()).await?,
+    ])
 }
 
 /// Tables of lobes, one under the other.

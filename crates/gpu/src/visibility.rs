@@ -33,43 +33,6 @@ impl VisibilityPass {
                     immediate_size: 0,
                 })
         };
-        let pipeline = |module: &wgpu::ShaderModule,
-                        [vertex, fragment]: [&str; 2],
-                        layout: &wgpu::PipelineLayout,
-                        cull_mode| {
-            gpu.device
-                .create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some("visibility"),
-                    layout: Some(layout),
-                    vertex: wgpu::VertexState {
-                        module,
-                        entry_point: Some(vertex),
-                        compilation_options: Default::default(),
-                        buffers: &[],
-                    },
-                    primitive: wgpu::PrimitiveState {
-                        cull_mode,
-                        ..Default::default()
-                    },
-                    depth_stencil: Some(wgpu::DepthStencilState {
-                        format: DEPTH_FORMAT,
-                        depth_write_enabled: Some(true),
-                        // Reversed: one at the near plane, zero at infinity.
-                        depth_compare: Some(wgpu::CompareFunction::Greater),
-                        stencil: Default::default(),
-                        bias: Default::default(),
-                    }),
-                    multisample: Default::default(),
-                    fragment: Some(wgpu::FragmentState {
-                        module,
-                        entry_point: Some(fragment),
-                        compilation_options: Default::default(),
-                        targets: &[Some(VISIBILITY_FORMAT.into())],
-                    }),
-                    multiview_mask: None,
-                    cache: None,
-                })
-        };
         let whole = shader(gpu, &shaders::VISIBILITY);
         let cut = shader(gpu, &shaders::VISIBILITY_CUTOUTS);
         let of_whole = layout(&groups[..2]);
@@ -78,9 +41,9 @@ impl VisibilityPass {
         let of_cut_entries = ["cutout_vertex", "cutout_fragment"];
         Self {
             // Both sides of a sheet are seen.
-            objects: pipeline(&whole, entries, &of_whole, None),
-            cutouts: pipeline(&cut, of_cut_entries, &of_cut, None),
-            lamps: pipeline(&whole, entries, &of_whole, Some(wgpu::Face::Back)),
+            objects: pipeline(gpu, &whole, entries, &of_whole, None),
+            cutouts: pipeline(gpu, &cut, of_cut_entries, &of_cut, None),
+            lamps: pipeline(gpu, &whole, entries, &of_whole, Some(wgpu::Face::Back)),
         }
     }
 
@@ -128,4 +91,45 @@ impl VisibilityPass {
             pass.draw(3 * triangles.start..3 * triangles.end, object..object + 1);
         }
     }
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    module: &wgpu::ShaderModule,
+    [vertex, fragment]: [&str; 2],
+    layout: &wgpu::PipelineLayout,
+    cull_mode: Option<wgpu::Face>,
+) -> wgpu::RenderPipeline {
+    let descriptor = wgpu::RenderPipelineDescriptor {
+        label: Some("visibility"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState {
+            cull_mode,
+            ..Default::default()
+        },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            // Reversed: one at the near plane, zero at infinity.
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: Default::default(),
+            targets: &[Some(VISIBILITY_FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    };
+    gpu.device.create_render_pipeline(&descriptor)
 }
