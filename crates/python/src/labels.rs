@@ -135,8 +135,8 @@ impl Labels {
     /// Length of each scratch: float32, metres.
     #[getter]
     fn scratch_length_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f32>> {
-        self.each(py, |_, object, it| {
-            let own = it.segments.start as usize..it.segments.end as usize;
+        self.each(py, |_, object, scratch| {
+            let own = scratch.segments.start as usize..scratch.segments.end as usize;
             object.segments[own]
                 .iter()
                 .map(|piece| piece.start_m.distance(piece.end_m))

@@ -1,23 +1,24 @@
 //! Labels of a picture: which scratches each pixel shows, and how much of it they cover.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3};
 use hairline_image::cryptomatte::{self, Matte, NOTHING};
-use hairline_index::segment_tree::{SegmentTree, Straight};
+use hairline_index::segment_tree::SegmentTree;
 use hairline_index::{Hit, TriangleIndex};
-use hairline_optics::footprint::{Footprint, scratch_share};
-use hairline_optics::gaussian::gaussian;
 use hairline_scene::{CameraFrame, Object, Scene};
 use rayon::prelude::*;
 
+use outlines::Outlines;
+use pieces::{Piece, PieceInPixel, pieces};
+
+mod outlines;
+mod pieces;
+
+pub use outlines::OBJECT_RANKS;
+
 /// Number of scratches that each pixel names: three layers of the convention.
 pub const RANKS: usize = 6;
-/// Number of objects that each pixel names: two layers.
-pub const OBJECT_RANKS: usize = 4;
-/// Rays along each axis of the filter of a pixel that sees an outline.
-const OUTLINE_RAYS: u32 = 8;
 /// Distance in standard deviations of a pixel's filter beyond which a scratch covers nothing of it.
 const REACH: f64 = 3.5;
 /// Least cosine between the normals of a scratch and of the surface that shows it.
@@ -42,23 +43,6 @@ pub struct Labels {
     pub direction_rad: Vec<f32>,
     /// Pixels that scratches go through: the index of the pixel and that of the scratch, in the order of the pixels.
     pub touched: Vec<[u32; 2]>,
-}
-
-/// A straight piece of a scratch.
-#[derive(Clone, Copy)]
-struct Piece {
-    start_m: Vec3,
-    end_m: Vec3,
-    normal: Vec3,
-    width_um: f32,
-    /// Scratch, counted over all objects.
-    scratch: u32,
-}
-
-impl Straight for Piece {
-    fn ends_m(&self) -> [Vec3; 2] {
-        [self.start_m, self.end_m]
-    }
 }
 
 /// A scratch in a pixel.
@@ -90,27 +74,13 @@ pub fn first_scratches(scene: &Scene) -> Vec<u32> {
 
 /// Labels of a scene's picture. None where `cancelled` says so, which is asked from any thread.
 pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<Labels> {
-    let first = first_scratches(scene);
-    let objects = scene.objects.iter().zip(&first);
-    let pieces = SegmentTree::build(objects.map(|(object, first)| pieces(object, *first)));
-    let triangles = TriangleIndex::build(scene);
-    let half_widths_m: Vec<f64> = scene.objects.iter().map(half_widest_m).collect();
-    let frame = scene.camera.frame(scene.render.size_px);
+    let seen = SeenScene::new(scene);
     let [width, height] = scene.render.size_px;
     let rows = (0..height).into_par_iter().map(|y| {
         if cancelled() {
             return None;
         }
-        let pixel = |x| {
-            labelled(
-                scene,
-                &frame,
-                &triangles,
-                &pieces,
-                &half_widths_m,
-                DVec2::new(f64::from(x), f64::from(y)),
-            )
-        };
+        let pixel = |x| seen.pixel(DVec2::new(f64::from(x), f64::from(y)));
         Some((0..width).map(pixel).collect::<Vec<_>>())
     });
     let pixels: Option<Vec<Vec<Pixel>>> = rows.collect();
@@ -118,27 +88,13 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
         size_px: scene.render.size_px,
         ..Labels::default()
     };
-    for (i, pixel) in pixels?.into_iter().flatten().enumerate() {
-        labels.object.push(pixel.object);
-        let touched = pixel.shown.iter().filter(|it| it.is_touched);
-        labels
-            .touched
-            .extend(touched.map(|it| [i as u32, it.scratch]));
-        for rank in 0..RANKS {
-            let shown = pixel.shown.get(rank);
-            labels.scratch.push(shown.map_or(NOTHING, |it| it.scratch));
-            labels
-                .coverage
-                .push(shown.map_or(0.0, |it| it.coverage as f32));
-            labels
-                .direction_rad
-                .push(shown.map_or(0.0, |it| it.direction_rad as f32));
-        }
+    for (i, pixel) in (0..).zip(pixels?.into_iter().flatten()) {
+        labels.push(i, &pixel);
     }
     let covers = Outlines {
         scene,
-        frame: &frame,
-        triangles: &triangles,
+        frame: &seen.frame,
+        triangles: &seen.triangles,
         object: &labels.object,
     };
     let covers = (0..labels.object.len())
@@ -151,59 +107,14 @@ pub fn labels(scene: &Scene, cancelled: &(dyn Fn() -> bool + Sync)) -> Option<La
     Some(labels)
 }
 
-/// The outlines of objects in a picture.
-struct Outlines<'a> {
+/// A scene with what tells what its pixels see.
+struct SeenScene<'a> {
     scene: &'a Scene,
-    frame: &'a CameraFrame,
-    triangles: &'a TriangleIndex,
-    /// Object that the middle of each pixel sees.
-    object: &'a [u32],
-}
-
-impl Outlines<'_> {
-    /// The objects of a pixel, the largest first, each with the share of the filter that sees it.
-    fn of_pixel(&self, i: usize) -> [(u32, f32); OBJECT_RANKS] {
-        let mut ranks = [(NOTHING, 0.0); OBJECT_RANKS];
-        let [width, height] = self.scene.render.size_px.map(|n| n as usize);
-        let (x, y) = (i % width, i / width);
-        let reach = (2.5 * self.scene.render.filter_std_px).ceil() as usize;
-        let around = |at: usize, end: usize| at.saturating_sub(reach)..(at + reach + 1).min(end);
-        let mut around =
-            around(y, height).flat_map(|y| around(x, width).map(move |x| y * width + x));
-        if around.all(|j| self.object[j] == self.object[i]) {
-            ranks[0] = (
-                self.object[i],
-                f32::from(u8::from(self.object[i] != NOTHING)),
-            );
-            return ranks;
-        }
-        let std_px = self.scene.render.filter_std_px;
-        let middle_px = DVec2::new(x as f64, y as f64) + 0.5;
-        // Even steps of probability of the filter.
-        let off_px =
-            |k: u32| std_px * gaussian().quantile((f64::from(k) + 0.5) / f64::from(OUTLINE_RAYS));
-        let mut seen: BTreeMap<u32, u32> = BTreeMap::new();
-        for (right, down) in (0..OUTLINE_RAYS).flat_map(|k| (0..OUTLINE_RAYS).map(move |l| (k, l)))
-        {
-            let ray = self
-                .frame
-                .camera_ray(middle_px + DVec2::new(off_px(right), off_px(down)));
-            let hit = self
-                .triangles
-                .intersect(self.frame.position_m, ray.normalize());
-            if let Some(hit) = hit.filter(|hit| !self.scene.objects[hit.object as usize].is_lamp) {
-                *seen.entry(hit.object).or_default() += 1;
-            }
-        }
-        let mut seen: Vec<_> = seen.into_iter().collect();
-        // Stable: of two that are as large the first object comes first.
-        seen.sort_by_key(|(_, rays)| std::cmp::Reverse(*rays));
-        let of_all = (OUTLINE_RAYS * OUTLINE_RAYS) as f32;
-        for (rank, (object, rays)) in ranks.iter_mut().zip(seen) {
-            *rank = (object, rays as f32 / of_all);
-        }
-        ranks
-    }
+    frame: CameraFrame,
+    triangles: TriangleIndex,
+    pieces: SegmentTree<Piece>,
+    /// Half of the width of each object's widest scratch.
+    half_widths_m: Vec<f64>,
 }
 
 /// Half of the width of an object's widest scratch.
@@ -212,58 +123,67 @@ fn half_widest_m(object: &Object) -> f64 {
     0.5e-6 * f64::from(widths_um.fold(0.0, f32::max))
 }
 
-fn pieces(object: &Object, first: u32) -> Vec<Piece> {
-    let scratches = object.scratches.iter().zip(first..);
-    let pieces = scratches.flat_map(|(scratch, number)| {
-        let own = scratch.segments.start as usize..scratch.segments.end as usize;
-        object.segments[own].iter().map(move |piece| Piece {
-            start_m: piece.start_m,
-            end_m: piece.end_m,
-            normal: piece.normal,
-            width_um: scratch.profile.width_um,
-            scratch: number,
-        })
-    });
-    pieces
-        .filter(|piece| piece.start_m != piece.end_m)
-        .collect()
-}
-
-/// The pixel whose upper left corner is at `corner_px`.
-fn labelled(
-    scene: &Scene,
-    frame: &CameraFrame,
-    triangles: &TriangleIndex,
-    pieces: &SegmentTree<Piece>,
-    half_widths_m: &[f64],
-    corner_px: DVec2,
-) -> Pixel {
-    let ray = frame.camera_ray(corner_px + 0.5);
-    let nothing = Pixel {
-        object: NOTHING,
-        shown: Vec::new(),
-    };
-    let Some(hit) = triangles.intersect(frame.position_m, ray.normalize()) else {
-        return nothing;
-    };
-    if scene.objects[hit.object as usize].is_lamp {
-        return nothing;
+impl<'a> SeenScene<'a> {
+    fn new(scene: &'a Scene) -> Self {
+        let first = first_scratches(scene);
+        let objects = scene.objects.iter().zip(&first);
+        Self {
+            scene,
+            frame: scene.camera.frame(scene.render.size_px),
+            triangles: TriangleIndex::build(scene),
+            pieces: SegmentTree::build(objects.map(|(object, first)| pieces(object, *first))),
+            half_widths_m: scene.objects.iter().map(half_widest_m).collect(),
+        }
     }
-    let position_m = frame.position_m + ray.normalize() * hit.distance_m;
-    let normal = smooth_normal(scene, &hit, -ray);
-    let depth_m = hit.distance_m / ray.length();
-    let px_m = frame.footprint_axes(ray, depth_m, normal);
-    let axes = px_m.map(|axis| axis * scene.render.filter_std_px);
-    // The filter, or the square of the pixel, whichever is wider. On a flat surface the box of both has no height, and rounding would miss it.
-    let reach_m = |axes: [DVec3; 2]| axes.map(|axis| axis.length()).iter().sum::<f64>();
-    let reach_m = (REACH * reach_m(axes)).max(reach_m(px_m));
-    let reach = DVec3::splat(reach_m + half_widths_m[hit.object as usize]);
-    let mut shown: Vec<ScratchInPixel> = Vec::new();
-    pieces.gather(
-        hit.object as usize,
-        position_m.as_vec3(),
-        reach.as_vec3(),
-        |i| {
+
+    /// The pixel whose upper left corner is at `corner_px`.
+    fn pixel(&self, corner_px: DVec2) -> Pixel {
+        let Self {
+            scene,
+            frame,
+            triangles,
+            ..
+        } = self;
+        let ray = frame.camera_ray(corner_px + 0.5);
+        let nothing = Pixel {
+            object: NOTHING,
+            shown: Vec::new(),
+        };
+        let Some(hit) = triangles.intersect(frame.position_m, ray.normalize()) else {
+            return nothing;
+        };
+        if scene.objects[hit.object as usize].is_lamp {
+            return nothing;
+        }
+        let mut shown = self.shown(corner_px, ray, &hit);
+        add_up(&mut shown);
+        keep_strongest(&mut shown);
+        Pixel {
+            object: hit.object,
+            shown,
+        }
+    }
+
+    /// Pieces of scratches that a pixel shows of what its ray hits, each as a scratch.
+    fn shown(&self, corner_px: DVec2, ray: DVec3, hit: &Hit) -> Vec<ScratchInPixel> {
+        let Self {
+            scene,
+            frame,
+            pieces,
+            ..
+        } = self;
+        let position_m = frame.position_m + ray.normalize() * hit.distance_m;
+        let normal = smooth_normal(scene, hit, -ray);
+        let depth_m = hit.distance_m / ray.length();
+        let px_m = frame.footprint_axes(ray, depth_m, normal);
+        let axes = px_m.map(|axis| axis * scene.render.filter_std_px);
+        // The filter, or the square of the pixel, whichever is wider. On a flat surface the box of both has no height, and rounding would miss it.
+        let reach_m = |axes: [DVec3; 2]| axes.map(|axis| axis.length()).iter().sum::<f64>();
+        let reach_m = (REACH * reach_m(axes)).max(reach_m(px_m));
+        let object = hit.object as usize;
+        let reach = DVec3::splat(reach_m + self.half_widths_m[object]);
+        let mut shown: Vec<ScratchInPixel> = Vec::new();
+        pieces.gather(object, position_m.as_vec3(), reach.as_vec3(), |i| {
             let piece = &pieces.segments[i];
             if piece.normal.dot(normal.as_vec3()) < FACING {
                 return;
@@ -279,21 +199,30 @@ fn labelled(
                 direction_rad: seen.direction_rad,
                 is_touched: seen.is_touched,
             });
-        },
-    );
+        });
+        shown
+    }
+}
+
+/// Adds up the pieces of each scratch, in their order.
+fn add_up(shown: &mut Vec<ScratchInPixel>) {
     // Stable, so that sums are added up in the order of the pieces.
     shown.sort_by_key(|it| it.scratch);
-    shown.dedup_by(|next, it| {
-        let is_same = next.scratch == it.scratch;
+    shown.dedup_by(|next, kept| {
+        let is_same = next.scratch == kept.scratch;
         if is_same {
-            it.coverage += next.coverage;
-            it.is_touched |= next.is_touched;
-            if next.most > it.most {
-                (it.most, it.direction_rad) = (next.most, next.direction_rad);
+            kept.coverage += next.coverage;
+            kept.is_touched |= next.is_touched;
+            if next.most > kept.most {
+                (kept.most, kept.direction_rad) = (next.most, next.direction_rad);
             }
         }
         is_same
     });
+}
+
+/// Sorts scratches by their coverage, and keeps those that a pixel names or that go through it.
+fn keep_strongest(shown: &mut Vec<ScratchInPixel>) {
     shown.retain(|it| it.coverage > 1e-9 || it.is_touched);
     // Equal coverage falls to the scratch that was laid first.
     shown.sort_by(|a, b| {
@@ -303,15 +232,11 @@ fn labelled(
     });
     // Thousands of scratches may lie in a pixel: all of them for all pixels would not fit into memory.
     let mut rank = 0;
-    shown.retain(|it| {
+    shown.retain(|scratch| {
         rank += 1;
-        rank <= RANKS || it.is_touched
+        rank <= RANKS || scratch.is_touched
     });
     shown.shrink_to_fit();
-    Pixel {
-        object: hit.object,
-        shown,
-    }
 }
 
 /// The shading normal without textures, on the side of the viewer.
@@ -328,111 +253,22 @@ fn smooth_normal(scene: &Scene, hit: &Hit, to_viewer: DVec3) -> DVec3 {
     }
 }
 
-/// A piece in a pixel.
-struct PieceInPixel {
-    coverage: f64,
-    direction_rad: f64,
-    is_touched: bool,
-}
-
-impl PieceInPixel {
-    fn new(
-        piece: &Piece,
-        frame: &CameraFrame,
-        corner_px: DVec2,
-        position_m: DVec3,
-        axes: [DVec3; 2],
-        normal: DVec3,
-    ) -> Option<Self> {
-        let [start, end] = [piece.start_m, piece.end_m].map(|p| 1e6 * (p.as_dvec3() - position_m));
-        let along = end - start;
-        let flat = along - normal * along.dot(normal);
-        let tangent = flat.try_normalize()?;
-        let across = normal.cross(tangent);
-        let variance = |a: DVec3, b: DVec3| {
-            let each = axes.map(|axis| 1e12 * axis.dot(a) * axis.dot(b));
-            each[0] + each[1]
-        };
-        let footprint = Footprint {
-            across_um2: variance(across, across),
-            along_um2: variance(tangent, tangent),
-            cross_um2: variance(across, tangent),
-        };
-        // No coherence: what is asked for is an area.
-        let width_um = f64::from(piece.width_um);
-        let offset_um = 0.5 * (start + end).dot(across);
-        let ends = [start, end].map(|p| p.dot(tangent));
-        let per_std = 1.0 / footprint.across_um2.sqrt().max(1e-9);
-        let across = gaussian().integral(
-            (offset_um - 0.5 * width_um) * per_std,
-            (offset_um + 0.5 * width_um) * per_std,
-        );
-        // Share along the scratch, on the line of it that is nearest to the pixel's middle.
-        let nearest_um = offset_um.signum() * (offset_um.abs() - 0.5 * width_um).max(0.0);
-        let line = scratch_share(1.0, nearest_um, ends[0], ends[1], 0.0, footprint, 0.0);
-        let coverage = across * line.segment / line.line.max(1e-300);
-        let (from, to) = in_picture(frame, piece, position_m)?;
-        let way = to - from;
-        // The picture's y runs down.
-        let direction = (-way.y).atan2(way.x);
-        let half_turn = std::f64::consts::FRAC_PI_2;
-        let direction_rad = match direction {
-            d if d > half_turn => d - 2.0 * half_turn,
-            d if d <= -half_turn => d + 2.0 * half_turn,
-            d => d,
-        };
-        let px_um =
-            1e6 * (frame.per_px_x.length() * (position_m - frame.position_m).dot(frame.forward));
-        let is_wide =
-            width_um > px_um && distance(corner_px + 0.5, from, to) <= 0.5 * width_um / px_um;
-        Some(Self {
-            coverage,
-            direction_rad,
-            is_touched: is_wide || crosses(corner_px, from, to),
-        })
-    }
-}
-
-/// Ends of a piece in the picture. What of it lies behind the camera or beside it is cut off.
-fn in_picture(frame: &CameraFrame, piece: &Piece, seen_m: DVec3) -> Option<(DVec2, DVec2)> {
-    let depth_m = |p: DVec3| (p - frame.position_m).dot(frame.forward);
-    let (mut from, mut to) = (piece.start_m.as_dvec3(), piece.end_m.as_dvec3());
-    let (first_m, last_m, nearest_m) = (depth_m(from), depth_m(to), 1e-3 * depth_m(seen_m));
-    let cut = || from.lerp(to, (nearest_m - first_m) / (last_m - first_m));
-    match [first_m < nearest_m, last_m < nearest_m] {
-        [true, true] => return None,
-        [true, false] => from = cut(),
-        [false, true] => to = cut(),
-        [false, false] => {}
-    }
-    Some((frame.pixel_of(from)?, frame.pixel_of(to)?))
-}
-
-/// Whether a line crosses the square of one pixel: that of Y.-D. Liang and B. Barsky (1984).
-fn crosses(corner: DVec2, from: DVec2, to: DVec2) -> bool {
-    let (way, low, high) = (to - from, corner - from, corner + 1.0 - from);
-    let (mut first, mut last) = (0.0_f64, 1.0_f64);
-    for axis in 0..2 {
-        if way[axis] == 0.0 {
-            if low[axis] > 0.0 || high[axis] <= 0.0 {
-                return false;
-            }
-            continue;
-        }
-        let (a, b) = (low[axis] / way[axis], high[axis] / way[axis]);
-        first = first.max(a.min(b));
-        last = last.min(a.max(b));
-    }
-    first < last
-}
-
-fn distance(point: DVec2, from: DVec2, to: DVec2) -> f64 {
-    let way = to - from;
-    let share = ((point - from).dot(way) / way.length_squared().max(1e-300)).clamp(0.0, 1.0);
-    point.distance(from + way * share)
-}
-
 impl Labels {
+    /// Adds the labels of pixel `i`.
+    fn push(&mut self, i: u32, pixel: &Pixel) {
+        self.object.push(pixel.object);
+        let touched = pixel.shown.iter().filter(|it| it.is_touched);
+        self.touched.extend(touched.map(|it| [i, it.scratch]));
+        for rank in 0..RANKS {
+            let shown = pixel.shown.get(rank);
+            self.scratch.push(shown.map_or(NOTHING, |it| it.scratch));
+            self.coverage
+                .push(shown.map_or(0.0, |it| it.coverage as f32));
+            self.direction_rad
+                .push(shown.map_or(0.0, |it| it.direction_rad as f32));
+        }
+    }
+
     /// Writes the labels as an .exr by the convention of Cryptomatte, with the layer, the width, the depth and the direction of each pixel's strongest
     /// scratch.
     ///
