@@ -211,7 +211,7 @@ impl Shading<'_, '_> {
             let energy = scratch_energy(segment.profile, on.table(i), point.point.wo.z);
             let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
             let mut radiance = DVec3::ZERO;
-            if picks.is_some() || !on.is_dark() {
+            if picks.is_some() || !on.lit.is_empty() || on.surrounding.is_some() {
                 let picks = picks.as_deref_mut();
                 radiance = on.light((i, share), energy, picks, roots, self.counts);
             }
@@ -250,11 +250,6 @@ impl<'a> LitSegment<'a, '_> {
     fn scratch(&self, i: usize, course: Course) -> ScratchLight<'a> {
         let wo = self.points[i].point.wo;
         ScratchLight::new(wo, course, self.table(i), self.segment.profile).by_one_line(self.node)
-    }
-
-    #[inline(always)]
-    fn is_dark(&self) -> bool {
-        self.lit.is_empty() && self.surrounding.is_none()
     }
 
     /// The environment, with its light at a few places of the points.

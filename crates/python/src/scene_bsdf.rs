@@ -227,12 +227,8 @@ impl SceneBsdf {
                 let [pick, x, y] = u[i];
                 let bsdf = self.at(&point(frames[i]));
                 let drawn = bsdf.sample(wo[i].into(), pick, DVec2::new(x, y), SpectralMode::Rgb);
-                drawn.map_or((BELOW, 0.0, [0.0; 3]), |(wi, pdf, value)| {
-                    (
-                        wi.to_array(),
-                        pdf,
-                        (value.base + value.scratches).to_array(),
-                    )
+                drawn.map_or((BELOW, 0.0, [0.0; 3]), |(wi, pdf, sent)| {
+                    (wi.to_array(), pdf, (sent.base + sent.scratches).to_array())
                 })
             });
             each.collect()

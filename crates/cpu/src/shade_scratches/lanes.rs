@@ -172,31 +172,23 @@ impl Group {
     /// Finds the position of a segment under the footprints of the points near to its line; false if none sees it.
     #[inline(always)]
     fn place(&self, segment: &IndexedSegment, near: &NearLine, seen: &mut SegmentView) -> bool {
-        let NearLine {
-            start,
-            along,
-            area,
-            length2,
-            variance,
-            is_near,
-        } = near;
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
         let (z, c) = (&self.normal, &self.covariance_um2);
         let blur_um = f64::from(segment.blur_um);
         let half_turn = 0.5 * f64::from(segment.turn_rad);
         let mut count = 0;
         for i in 0..LANES {
-            let per_length2 = 1.0 / length2[i];
+            let per_length2 = 1.0 / near.length2[i];
             let per_length = per_length2.sqrt();
-            let (tx, ty) = (along[0][i] * per_length, along[1][i] * per_length);
+            let (tx, ty) = (near.along[0][i] * per_length, near.along[1][i] * per_length);
             let (xx, xy, yy) = (tx * tx, tx * ty, ty * ty);
             let along_um2 = (c[0][i] * xx + 2.0 * c[1][i] * xy + c[2][i] * yy).max(0.0);
             let cross_um2 = (c[2][i] - c[0][i]) * xy + c[1][i] * (xx - yy);
-            let at = start[0][i] * tx + start[1][i] * ty;
-            let end = at + length2[i] * per_length;
+            let at = near.start[0][i] * tx + near.start[1][i] * ty;
+            let end = at + near.length2[i] * per_length;
             // An arc lies to the right of its chord where it turns to the left.
-            let offset = (area[i] + half_turn * (at * end).min(0.0)) * per_length;
-            let variance = variance[i] * per_length2;
+            let offset = (near.area[i] + half_turn * (at * end).min(0.0)) * per_length;
+            let variance = near.variance[i] * per_length2;
             let per_variance = 1.0 / variance;
             let far2 = offset * offset * per_variance;
             // A slanted footprint: its part on the scratch is displaced along the scratch.
@@ -212,8 +204,9 @@ impl Group {
             let start_z = s.x * z[0][i] + s.y * z[1][i] + s.z * z[2][i] - self.at_z_m[i];
             let end_z = e.x * z[0][i] + e.y * z[1][i] + e.z * z[2][i] - self.at_z_m[i];
             let off_m = (start_z + nearest * (end_z - start_z)).abs();
-            let sees =
-                (is_near[i] != 0) & (far2 + beyond * beyond <= REACH2) & (off_m <= self.off_m[i]);
+            let sees = (near.is_near[i] != 0)
+                & (far2 + beyond * beyond <= REACH2)
+                & (off_m <= self.off_m[i]);
             seen.sees[i] = u64::from(sees);
             count += u64::from(sees);
             seen.tangent[0][i] = tx;

@@ -83,15 +83,15 @@ impl<'l, 'a> Lobes<'l, 'a> {
             1.0
         };
         let coat = point.coat.zip(base.coat.as_ref());
-        let coat = coat.map(|(coat, (part, layer))| {
+        let coat = coat.map(|(here, (part, layer))| {
             let weight = part.weight;
             // Faint as it is, its highlights are the strongest.
             let share = (weight * luminance(layer.albedo)).max(0.3 * weight);
             DrawnLobe::new(
                 point,
-                round(coat.roughness),
-                coat.slope_std,
-                coat.fresnel,
+                round(here.roughness),
+                here.slope_std,
+                here.fresnel,
                 share,
             )
         });

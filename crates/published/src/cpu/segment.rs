@@ -42,23 +42,30 @@ impl SegmentView {
             tangent: along.try_normalize()?,
         };
         let (start, end) = (frame.band_from_surface(start), frame.band_from_surface(end));
+        let offset_um = 0.5 * (start.y + end.y);
         let axes_um = point
             .footprint_axes_m
             .map(|a| frame.band_from_surface(point.surface_from_world(a)) * 1e6);
-        let placed = PlacedSegment {
-            segment,
-            offset_um: 0.5 * (start.y + end.y),
-            ends_um: [start.x, end.x],
-            axes_um,
-            coherence_um: point.coherence_um,
-        };
-        if placed.is_out_of_reach() {
+        let [ax, ay] = axes_um;
+        let sigma = point.coherence_um;
+        let across_um2 = ax.y * ax.y + ay.y * ay.y;
+        let variance_um2 = across_um2 + 0.5 * sigma * sigma;
+        if offset_um * offset_um > (REACH_STD * REACH_STD) as f64 * variance_um2 {
             return None;
         }
+        let (width_um, blur_um) = (segment.profile.width_um as f64, segment.blur_um as f64);
         let (share, density) = if anti_aliasing {
-            placed.in_a_box()
+            let ends_um = [start.x, end.x];
+            box_share(segment, offset_um, ends_um, axes_um, sigma)
         } else {
-            let share = placed.in_the_footprint();
+            let footprint = Footprint {
+                across_um2,
+                along_um2: ax.x * ax.x + ay.x * ay.x,
+                cross_um2: ax.x * ax.y + ay.x * ay.y,
+            };
+            let share = scratch_share(
+                width_um, offset_um, start.x, end.x, blur_um, footprint, sigma,
+            );
             (share, 2.0 * share.segment)
         };
         (share.segment > 0.0).then(|| Self {
@@ -71,70 +78,26 @@ impl SegmentView {
     }
 }
 
-/// A segment under the footprint of a pixel.
-struct PlacedSegment<'a> {
-    segment: &'a IndexedSegment,
+/// The share of a box about a pixel that a segment covers, and the share of the base that it masks there.
+fn box_share(
+    segment: &IndexedSegment,
     offset_um: f64,
-    ends_um: [f64; 2],
-    /// Axes of the footprint in the frame of the scratch.
+    [start_um, end_um]: [f64; 2],
     axes_um: [DVec3; 2],
-    coherence_um: f64,
-}
-
-impl PlacedSegment<'_> {
-    fn footprint(&self) -> Footprint {
-        let [ax, ay] = self.axes_um;
-        Footprint {
-            across_um2: ax.y * ax.y + ay.y * ay.y,
-            along_um2: ax.x * ax.x + ay.x * ay.x,
-            cross_um2: ax.x * ax.y + ay.x * ay.y,
-        }
-    }
-
-    fn is_out_of_reach(&self) -> bool {
-        let sigma = self.coherence_um;
-        let variance_um2 = self.footprint().across_um2 + 0.5 * sigma * sigma;
-        self.offset_um * self.offset_um > (REACH_STD * REACH_STD) as f64 * variance_um2
-    }
-
-    fn sizes_um(&self) -> [f64; 2] {
-        let IndexedSegment {
-            profile, blur_um, ..
-        } = self.segment;
-        [profile.width_um as f64, *blur_um as f64]
-    }
-
-    /// The share of the footprint that the segment covers.
-    fn in_the_footprint(&self) -> ScratchShare {
-        let ([width_um, blur_um], [start_um, end_um]) = (self.sizes_um(), self.ends_um);
-        scratch_share(
-            width_um,
-            self.offset_um,
-            start_um,
-            end_um,
-            blur_um,
-            self.footprint(),
-            self.coherence_um,
-        )
-    }
-
-    /// The share of a box that the segment covers, and the share of the base that it masks there.
-    fn in_a_box(&self) -> (ScratchShare, f64) {
-        // The box that has the Gaussian's variance.
-        let side = |axis: DVec3| 12f64.sqrt() * axis.truncate();
-        let [right_um, down_um] = self.axes_um.map(side);
-        let pixel = PixelFootprint { right_um, down_um };
-        let [width_um, blur_um] = self.sizes_um();
-        let (offset_um, sigma) = (self.offset_um, self.coherence_um);
-        let seen = |[start_um, end_um]: [f64; 2]| {
-            published_share(width_um, offset_um, start_um, end_um, blur_um, pixel, sigma)
-        };
-        let segment = seen(self.ends_um);
-        let share = ScratchShare {
-            segment: segment.share,
-            line: seen([-ENDLESS_UM, ENDLESS_UM]).share,
-            cover: 1.0,
-        };
-        (share, segment.density)
-    }
+    sigma: f64,
+) -> (ScratchShare, f64) {
+    // The box that has the Gaussian's variance.
+    let [right_um, down_um] = axes_um.map(|axis| 12f64.sqrt() * axis.truncate());
+    let pixel = PixelFootprint { right_um, down_um };
+    let (width_um, blur_um) = (segment.profile.width_um as f64, segment.blur_um as f64);
+    let seen = |start_um: f64, end_um: f64| {
+        published_share(width_um, offset_um, start_um, end_um, blur_um, pixel, sigma)
+    };
+    let segment = seen(start_um, end_um);
+    let share = ScratchShare {
+        segment: segment.share,
+        line: seen(-ENDLESS_UM, ENDLESS_UM).share,
+        cover: 1.0,
+    };
+    (share, segment.density)
 }
