@@ -24,6 +24,7 @@ mod lights;
 mod material;
 mod meshopt;
 mod nodes;
+mod notes;
 mod placing;
 mod pose;
 mod primitive;
@@ -50,6 +51,7 @@ use crate::mesh::{Mesh, NodeTriangles};
 use crate::other_formats::{OtherFormat, Translated};
 use crate::packed;
 use crate::reading::{self, FileKind};
+use crate::surface::Surface;
 use crate::text::shown;
 pub use cameras::FileCamera;
 pub(crate) use head::whole_text;
@@ -99,32 +101,25 @@ pub fn read(
     notes.extend(translated.notes);
     let buffers = Buffers::read(&gltf, base_dir, files)?;
     let first_own = materials.len();
+    let images = Images {
+        base_dir,
+        buffers: &buffers,
+        textures,
+        files,
+        free_bytes,
+        with_mips,
+        known: HashMap::new(),
+    };
     let mut materials = match material {
         Some(material) => Materials::One(material),
-        None => {
-            let images = Images {
-                base_dir,
-                buffers: &buffers,
-                textures,
-                files,
-                free_bytes,
-                with_mips,
-                known: HashMap::new(),
-            };
-            Materials::own(&gltf.document, images, materials)
-        }
+        None => Materials::own(&gltf.document, images, materials),
     };
     let mut mesh = Mesh::default();
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let start = placing.start(&shapes, world_from_object)?;
     let world_from_file = *world_from_object * start.object_from_file;
     *moved_from = start.moved_from;
-    if let Some(middle) = start.moved_from {
-        notes.push(format!(
-            "it stands {:.3e} m from its own origin, where no scene reaches; its middle is taken for the origin",
-            middle.length()
-        ));
-    }
+    notes.extend(start.moved_from.map(notes::moved));
     let mut turned = 0;
     let mut missing_sets = BTreeMap::<u32, usize>::new();
     let without_surface = shapes.visit(&mut |shape| {
@@ -137,14 +132,7 @@ pub fn read(
         let material = materials.index(&shape.primitive)?;
         let first = mesh.triangles.len();
         for file_from_place in &shape.places {
-            let so_far = mesh.triangles.len().max(mesh.positions_m.len());
-            let more = surface.triangles.len().max(surface.vertices.len());
-            if so_far + more > MOST_TRIANGLES {
-                return Err(Flaw::new(
-                    "it places more than 268 million triangles",
-                    "must have fewer",
-                ));
-            }
+            refuse_too_many(&mesh, &surface)?;
             surface.bake(&(world_from_file * *file_from_place), material, &mut mesh);
         }
         parts.push(NodeTriangles {
@@ -154,26 +142,25 @@ pub fn read(
         Ok(())
     })?;
     materials.forget_whole(first_own, &mesh);
-    for (set, count) in missing_sets {
-        let have = if count == 1 {
-            "primitive has"
-        } else {
-            "primitives have"
-        };
-        notes.push(format!(
-            "{count} {have} no TEXCOORD_{set}, by which images of their materials lie; all of them show the place (0, 0) of these"
-        ));
+    notes.extend(missing_sets.into_iter().map(notes::missing_set));
+    notes.extend((turned > 0).then(|| notes::turned(turned)));
+    refuse_no_surface(&mesh, without_surface)?;
+    Ok(mesh)
+}
+
+fn refuse_too_many(mesh: &Mesh, surface: &Surface) -> Result<(), Flaw> {
+    let so_far = mesh.triangles.len().max(mesh.positions_m.len());
+    let more = surface.triangles.len().max(surface.vertices.len());
+    match so_far + more > MOST_TRIANGLES {
+        true => Err(Flaw::new(
+            "it places more than 268 million triangles",
+            "must have fewer",
+        )),
+        false => Ok(()),
     }
-    if turned > 0 {
-        let are = if turned == 1 {
-            "triangle is"
-        } else {
-            "triangles are"
-        };
-        notes.push(format!(
-            "{turned} {are} wound against the normals of their vertices; the normals say which side is outside"
-        ));
-    }
+}
+
+fn refuse_no_surface(mesh: &Mesh, without_surface: usize) -> Result<(), Flaw> {
     if mesh.triangles.is_empty() && without_surface > 0 {
         let found = "it has points and lines, and no triangles";
         return Err(Flaw::new(
@@ -187,7 +174,7 @@ pub fn read(
             "must be of a finite size",
         ));
     }
-    Ok(mesh)
+    Ok(())
 }
 
 /// A camera of a file, in world space.

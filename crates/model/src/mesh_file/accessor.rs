@@ -2,6 +2,7 @@
 
 use gltf::Accessor;
 use gltf::accessor::DataType;
+use gltf::accessor::sparse::{IndexType, Sparse};
 
 use super::source::Buffers;
 use crate::flaw::Flaw;
@@ -62,30 +63,7 @@ fn read<T: Clone>(
         None => vec![decode(&vec![0; size], data_type); count],
     };
     if let Some(sparse) = accessor.sparse() {
-        let (indices, values) = (sparse.indices(), sparse.values());
-        let index_type = match indices.index_type() {
-            gltf::accessor::sparse::IndexType::U8 => DataType::U8,
-            gltf::accessor::sparse::IndexType::U16 => DataType::U16,
-            gltf::accessor::sparse::IndexType::U32 => DataType::U32,
-        };
-        let places = self::elements(
-            &indices.view(),
-            indices.offset(),
-            sparse.count(),
-            index_type.size(),
-            buffers,
-            &what,
-        )?;
-        let values = self::elements(
-            &values.view(),
-            values.offset(),
-            sparse.count(),
-            size,
-            buffers,
-            &what,
-        )?;
-        for (place, value) in places.zip(values) {
-            let place = index(place, index_type) as usize;
+        for (place, value) in replaced(&sparse, size, buffers, &what)? {
             let element = elements.get_mut(place).ok_or_else(|| {
                 Flaw::new(
                     format!("{what} replaces element {place} of {count}"),
@@ -96,6 +74,39 @@ fn read<T: Clone>(
         }
     }
     Ok(elements)
+}
+
+/// The elements of a sparse accessor: the place and the bytes of each.
+fn replaced<'b>(
+    sparse: &Sparse,
+    size: usize,
+    buffers: &'b Buffers,
+    what: &str,
+) -> Result<impl Iterator<Item = (usize, &'b [u8])> + use<'b>, Flaw> {
+    let (indices, values) = (sparse.indices(), sparse.values());
+    let index_type = match indices.index_type() {
+        IndexType::U8 => DataType::U8,
+        IndexType::U16 => DataType::U16,
+        IndexType::U32 => DataType::U32,
+    };
+    let places = elements(
+        &indices.view(),
+        indices.offset(),
+        sparse.count(),
+        index_type.size(),
+        buffers,
+        what,
+    )?;
+    let values = elements(
+        &values.view(),
+        values.offset(),
+        sparse.count(),
+        size,
+        buffers,
+        what,
+    )?;
+    let places = places.map(move |place| index(place, index_type) as usize);
+    Ok(places.zip(values))
 }
 
 /// The bytes of `count` elements of a view, each at least `size` long.

@@ -22,3 +22,12 @@ pub(super) fn used<'a>(
         known.ok_or_else(|| Flaw::new(format!("a texture of its {of} is not there"), RIGHT))?;
     Ok(Some((texture, mapping)))
 }
+
+/// [`used`] for two textures.
+pub(super) fn both_used<'a>(
+    document: &'a Document,
+    [first, second]: [Option<&Value>; 2],
+    of: &str,
+) -> Result<[Option<(gltf::Texture<'a>, UvMapping)>; 2], Flaw> {
+    Ok([used(document, first, of)?, used(document, second, of)?])
+}

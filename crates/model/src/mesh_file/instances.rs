@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DVec3};
 use gltf::Document;
+use gltf::json::Value;
 
 use super::accessor::read_numbers;
 use super::pose::unit;
@@ -22,35 +23,15 @@ pub(super) fn node_from_instances(
     else {
         return Ok(vec![DMat4::IDENTITY]);
     };
-    let accessor = |name: &str| {
-        let Some(index) = attributes.get(name).and_then(|index| index.as_u64()) else {
-            return Ok(None);
-        };
-        let accessor = usize::try_from(index)
-            .ok()
-            .and_then(|index| document.accessors().nth(index));
-        accessor.map(Some).ok_or_else(|| {
-            Flaw::new(
-                format!(
-                    "its node {} has instances by accessor {index}",
-                    node.index()
-                ),
-                "must be below the number of accessors",
-            )
-        })
+    let attributes = InstanceAttributes {
+        document,
+        node,
+        buffers,
+        attributes,
     };
-    let translations = match accessor("TRANSLATION")? {
-        Some(accessor) => Some(read_numbers::<3>(&accessor, buffers)?),
-        None => None,
-    };
-    let rotations = match accessor("ROTATION")? {
-        Some(accessor) => Some(read_numbers::<4>(&accessor, buffers)?),
-        None => None,
-    };
-    let scales = match accessor("SCALE")? {
-        Some(accessor) => Some(read_numbers::<3>(&accessor, buffers)?),
-        None => None,
-    };
+    let translations = attributes.read::<3>("TRANSLATION")?;
+    let rotations = attributes.read::<4>("ROTATION")?;
+    let scales = attributes.read::<3>("SCALE")?;
     let counts = [
         translations.as_ref().map(Vec::len),
         rotations.as_ref().map(Vec::len),
@@ -80,4 +61,32 @@ pub(super) fn node_from_instances(
         )
     };
     Ok((0..count).map(place).collect())
+}
+
+struct InstanceAttributes<'a> {
+    document: &'a Document,
+    node: &'a gltf::Node<'a>,
+    buffers: &'a Buffers,
+    /// Indices of accessors, by the names of attributes.
+    attributes: &'a Value,
+}
+
+impl InstanceAttributes<'_> {
+    /// Numbers of each instance; none where the node does not have them.
+    fn read<const N: usize>(&self, name: &str) -> Result<Option<Vec<[f32; N]>>, Flaw> {
+        let Some(index) = self.attributes.get(name).and_then(Value::as_u64) else {
+            return Ok(None);
+        };
+        let accessor = usize::try_from(index)
+            .ok()
+            .and_then(|index| self.document.accessors().nth(index));
+        let accessor = accessor.ok_or_else(|| {
+            let node = self.node.index();
+            Flaw::new(
+                format!("its node {node} has instances by accessor {index}"),
+                "must be below the number of accessors",
+            )
+        })?;
+        read_numbers::<N>(&accessor, self.buffers).map(Some)
+    }
 }

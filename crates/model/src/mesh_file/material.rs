@@ -8,7 +8,7 @@ use gltf::{Document, Primitive};
 use super::anisotropy;
 use super::coat;
 use super::cutout::{self, cutout};
-use super::extension_texture;
+use super::extension_texture::{self, both_used};
 use super::images::Images;
 use super::spec_gloss::{self, SpecGloss};
 use super::specular;
@@ -104,20 +104,13 @@ impl FileMaterials<'_> {
         let normals = material.normal_texture();
         let occlusion = material.occlusion_texture();
         let coat = coat::coat(material).filter(|_| !is_unlit);
-        let mut of_coat = [None, None];
-        for (texture, used) in of_coat.iter_mut().zip(coat::uses(material)) {
-            let used = used.filter(|_| coat.is_some());
-            *texture = extension_texture::used(self.document, used, "clear coat")?;
-        }
-        let [of_weight, of_roughness] = of_coat;
+        let of_coat = coat::uses(material).map(|used| used.filter(|_| coat.is_some()));
+        let [of_weight, of_roughness] = both_used(self.document, of_coat, "clear coat")?;
         let normals_of_coat = coat::normals(material).filter(|_| coat.is_some());
         let of_normals = extension_texture::used(self.document, normals_of_coat, "clear coat")?;
-        let mut of_specular = [None, None];
-        for (texture, used) in of_specular.iter_mut().zip(specular::uses(material)) {
-            let used = used.filter(|_| !is_unlit);
-            *texture = extension_texture::used(self.document, used, "specular reflection")?;
-        }
-        let [of_specular, of_specular_color] = of_specular;
+        let of_specular = specular::uses(material).map(|used| used.filter(|_| !is_unlit));
+        let [of_specular, of_specular_color] =
+            both_used(self.document, of_specular, "specular reflection")?;
         let anisotropy = anisotropy::anisotropy(material).filter(|_| !is_unlit);
         let of_anisotropy = anisotropy.and_then(|_| anisotropy::texture(material));
         let of_anisotropy = extension_texture::used(self.document, of_anisotropy, "anisotropy")?;

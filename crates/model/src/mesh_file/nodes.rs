@@ -25,26 +25,9 @@ pub(super) fn placed_nodes<'a>(
     document: &'a gltf::Document,
     pose: &Pose,
 ) -> Result<Vec<PlacedNode<'a>>, Flaw> {
-    let scene = document
-        .default_scene()
-        .or_else(|| document.scenes().next());
-    let roots: Vec<_> = match scene {
-        Some(scene) => scene.nodes().collect(),
-        // A file without a scene is a library; then all that is nobody's child is shown.
-        None => {
-            let mut is_child = vec![false; document.nodes().len()];
-            for child in document.nodes().flat_map(|node| node.children()) {
-                is_child[child.index()] = true;
-            }
-            document
-                .nodes()
-                .filter(|node| !is_child[node.index()])
-                .collect()
-        }
-    };
     let mut placed = Vec::new();
     let mut seen = vec![false; document.nodes().len()];
-    let mut stack: Vec<(gltf::Node, DMat4, Arc<[String]>, usize)> = roots
+    let mut stack: Vec<(gltf::Node, DMat4, Arc<[String]>, usize)> = roots(document)
         .into_iter()
         .rev()
         .map(|root| (root, DMat4::IDENTITY, Arc::default(), 0))
@@ -90,6 +73,23 @@ pub(super) fn placed_nodes<'a>(
         });
     }
     Ok(placed)
+}
+
+/// The nodes of the file's scene that are nobody's children.
+fn roots(document: &gltf::Document) -> Vec<gltf::Node<'_>> {
+    let scene = document
+        .default_scene()
+        .or_else(|| document.scenes().next());
+    if let Some(scene) = scene {
+        return scene.nodes().collect();
+    }
+    // A file without a scene is a library; then all that is nobody's child is shown.
+    let mut is_child = vec![false; document.nodes().len()];
+    for child in document.nodes().flat_map(|node| node.children()) {
+        is_child[child.index()] = true;
+    }
+    let is_root = |node: &gltf::Node| !is_child[node.index()];
+    document.nodes().filter(is_root).collect()
 }
 
 /// KHR_node_visibility: nodes below a hidden one are hidden too.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec4};
 use gltf::mesh::Mode;
-use gltf::{Document, Primitive, Semantic};
+use gltf::{Document, Material, Primitive, Semantic};
 
 use super::anisotropy;
 use super::attributes::Attributes;
@@ -51,26 +51,7 @@ pub(super) fn read(
         Some(_) => attributes.matching::<4>(&Semantic::Tangents, count)?,
         None => None,
     };
-    let mappings = UvMappings::from_material(&primitive.material());
-    // A surface without images keeps the first set, which another material may use.
-    let first = mappings.first.unwrap_or(UvMapping::new(0, None));
-    let [uvs, other_uvs] = [Some(first), mappings.second].map(|mapping| match mapping {
-        Some(mapping) => {
-            let uvs = attributes.matching::<2>(&Semantic::TexCoords(mapping.set), count)?;
-            Ok(uvs.map(|uvs| {
-                uvs.into_iter()
-                    .map(|uv| mapping.place(uv))
-                    .collect::<Vec<_>>()
-            }))
-        }
-        None => Ok(None),
-    });
-    let (uvs, other_uvs) = (uvs?, other_uvs?);
-    let wanted = [(mappings.first, &uvs), (mappings.second, &other_uvs)];
-    let missing = wanted
-        .into_iter()
-        .filter_map(|(mapping, uvs)| mapping.filter(|_| uvs.is_none()));
-    let missing_sets = missing.map(|mapping| mapping.set).collect();
+    let ([uvs, other_uvs], missing_sets) = read_uvs(&primitive.material(), &attributes, count)?;
     let colors = attributes.colors(count)?;
 
     let place = |uvs: &Option<Vec<Vec2>>, i: usize| uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
@@ -101,6 +82,30 @@ pub(super) fn read(
         has_uvs: uvs.is_some(),
         missing_sets,
     }))
+}
+
+/// Texture coordinates of a vertex by both mappings of a material, and the sets that are missing.
+fn read_uvs(
+    material: &Material,
+    attributes: &Attributes,
+    count: usize,
+) -> Result<([Option<Vec<Vec2>>; 2], Vec<u32>), Flaw> {
+    let mappings = UvMappings::from_material(material);
+    let read = |mapping: Option<UvMapping>| {
+        let Some(mapping) = mapping else {
+            return Ok(None);
+        };
+        let uvs = attributes.matching::<2>(&Semantic::TexCoords(mapping.set), count)?;
+        let placed = |uvs: Vec<_>| uvs.into_iter().map(|uv| mapping.place(uv)).collect();
+        Ok(uvs.map(placed))
+    };
+    // A surface without images keeps the first set, which another material may use.
+    let first = mappings.first.unwrap_or(UvMapping::new(0, None));
+    let uvs: [Option<Vec<Vec2>>; 2] = [read(Some(first))?, read(mappings.second)?];
+    let missing = [mappings.first, mappings.second].into_iter().zip(&uvs);
+    let missing = missing.filter_map(|(mapping, uvs)| mapping.filter(|_| uvs.is_none()));
+    let missing_sets = missing.map(|mapping| mapping.set).collect();
+    Ok((uvs, missing_sets))
 }
 
 impl RawPrimitive {
