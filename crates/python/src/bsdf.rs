@@ -132,6 +132,76 @@ fn modes<'a>(wavelengths_nm: Option<&'a [f64]>) -> impl Fn(usize) -> SpectralMod
     move |i| wavelengths_nm.map_or(SpectralMode::Rgb, |nm| SpectralMode::Wavelength(nm[i]))
 }
 
+/// How coherent the depths of scratches and of strips of grooves are.
+fn coherence_of_depths(scratches: &[Scratch], layers: &[Layer], sections: &[Section]) -> f64 {
+    let mut depths: Vec<(f64, f64)> = scratches.iter().map(|it| (it[5], it[4])).collect();
+    for ((share, .., grooves, _), section) in layers.iter().zip(sections) {
+        let strips = section.strips(STRIPS);
+        for ((part, _, depth_nm), (_, of_depth)) in grooves
+            .iter()
+            .flat_map(|it| strips.iter().map(move |strip| (it, strip)))
+        {
+            depths.push((depth_nm * of_depth, share * part / strips.len() as f64));
+        }
+    }
+    depth_coherence(depths.iter().copied())
+}
+
+fn layer_lobe(
+    conductor: &Conductor,
+    (share, direction, spread, grooves, _): &Layer,
+    section: &Section,
+    coherence_um: f64,
+) -> LayerLobe {
+    let groove = |&(part, width_um, depth_nm): &(f64, f64, f64)| Groove {
+        part,
+        width_um,
+        depth_nm,
+    };
+    LayerLobe::new(
+        conductor,
+        *share,
+        grooves.iter().map(groove).collect(),
+        Profile::new(section),
+        *direction,
+        *spread,
+        coherence_um,
+    )
+}
+
+fn grating_lobe(
+    (conductor, metal): (&Conductor, &MetalIndex),
+    cover: Option<Cover>,
+    is_coated: bool,
+    &(share, direction, spread, row, is_rigorous): &Row,
+    coherence_um: f64,
+) -> GratingLobe {
+    let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = row;
+    let row = Grating {
+        pitch_um,
+        width_um,
+        depth_nm,
+        depth_spread,
+        jitter_um,
+    };
+    let medium = Medium::Metal(metal.clone());
+    // What lies in a coat is scalar.
+    let is_rigorous = is_rigorous && !is_coated;
+    let fine = is_rigorous.then(|| fine_row(&row, medium.clone(), cover.as_ref()));
+    let fine = fine.flatten().and_then(|fine| {
+        Some(FineGrating {
+            efficiencies: efficiencies(&fine, &|| false)?.into(),
+            medium,
+            cover,
+        })
+    });
+    let row = match (&fine, cover) {
+        (None, Some(cover)) => row.in_cover(&cover),
+        _ => row,
+    };
+    GratingLobe::new(conductor, row, fine, share, direction, spread, coherence_um)
+}
+
 #[pymethods]
 impl Bsdf {
     /// `n_k`, rows of a wavelength in nm, n and k, takes the place of a metal's name. `coat` is a share of the surface and a roughness.
@@ -171,74 +241,19 @@ impl Bsdf {
                 (None, None) => Overlay::Bare,
             };
             let conductor = Conductor::new(metal.clone(), overlay, roughness);
-            let mut depths: Vec<(f64, f64)> = scratches.iter().map(|it| (it[5], it[4])).collect();
-            for ((share, .., grooves, _), section) in layers.iter().zip(&sections) {
-                let strips = section.strips(STRIPS);
-                for ((part, _, depth_nm), (_, of_depth)) in grooves
-                    .iter()
-                    .flat_map(|it| strips.iter().map(move |strip| (it, strip)))
-                {
-                    depths.push((depth_nm * of_depth, share * part / strips.len() as f64));
-                }
-            }
-            let depth_coherence = depth_coherence(depths.iter().copied());
-            let lobes = layers.iter().zip(&sections);
-            let layers = lobes.map(|((share, direction, spread, grooves, _), section)| {
-                let groove = |&(part, width_um, depth_nm): &(f64, f64, f64)| Groove {
-                    part,
-                    width_um,
-                    depth_nm,
-                };
-                let grooves = grooves.iter().map(groove).collect();
-                LayerLobe::new(
-                    &conductor,
-                    *share,
-                    grooves,
-                    Profile::new(section),
-                    *direction,
-                    *spread,
+            let depth_coherence = coherence_of_depths(&scratches, &layers, &sections);
+            let layers = layers.iter().zip(&sections);
+            let layers =
+                layers.map(|(layer, section)| layer_lobe(&conductor, layer, section, coherence_um));
+            let gratings = gratings.iter().map(|row| {
+                grating_lobe(
+                    (&conductor, &metal),
+                    cover,
+                    coat.is_some(),
+                    row,
                     coherence_um,
                 )
             });
-            let gratings = gratings
-                .iter()
-                .map(|(share, direction, spread, row, is_rigorous)| {
-                    let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = *row;
-                    let row = Grating {
-                        pitch_um,
-                        width_um,
-                        depth_nm,
-                        depth_spread,
-                        jitter_um,
-                    };
-                    let medium = Medium::Metal(metal.clone());
-                    // What lies in a coat is scalar.
-                    let is_rigorous = *is_rigorous && coat.is_none();
-                    let fine = (is_rigorous
-                        .then(|| fine_row(&row, medium.clone(), cover.as_ref())))
-                    .flatten();
-                    let fine = fine.and_then(|fine| {
-                        Some(FineGrating {
-                            efficiencies: efficiencies(&fine, &|| false)?.into(),
-                            medium,
-                            cover,
-                        })
-                    });
-                    let row = match (&fine, cover) {
-                        (None, Some(cover)) => row.in_cover(&cover),
-                        _ => row,
-                    };
-                    let (share, direction, spread) = (*share, *direction, *spread);
-                    GratingLobe::new(
-                        &conductor,
-                        row,
-                        fine,
-                        share,
-                        direction,
-                        spread,
-                        coherence_um,
-                    )
-                });
             ScratchedBsdf {
                 layers: layers.collect(),
                 gratings: gratings.collect(),

@@ -47,16 +47,7 @@ impl Stock {
             return Ok(Value::Boolean(boolean.is_true()));
         }
         if value.is_instance_of::<PyInt>() {
-            let integer = value.extract::<i64>().map_err(|error| {
-                match error.is_instance_of::<PyOverflowError>(value.py()) {
-                    true => {
-                        let found = format!("found the whole number {value}");
-                        errors::of_argument(key, found, "must be from -2^63 to 2^63 - 1")
-                    }
-                    false => error,
-                }
-            })?;
-            return Ok(Value::Integer(integer));
+            return Ok(Value::Integer(integer(value, key)?));
         }
         if value.is_instance_of::<PyFloat>() {
             return Ok(Value::Float(value.extract()?));
@@ -65,22 +56,7 @@ impl Stock {
             return Ok(Value::String(value.extract()?));
         }
         if let Ok(table) = value.cast::<PyDict>() {
-            let mut read = toml::Table::new();
-            for (name, value) in table.iter() {
-                let Ok(name) = name.extract::<String>() else {
-                    let found = format!("found a key of type {}", type_of(&name));
-                    return Err(errors::of_argument(key, found, "keys must be texts"));
-                };
-                let key = match key {
-                    "" => name.clone(),
-                    key => format!("{key}.{name}"),
-                };
-                // None counts as missing: TOML has no such value.
-                if !value.is_none() {
-                    read.insert(name, self.value(&value, &key, depth + 1)?);
-                }
-            }
-            return Ok(Value::Table(read));
+            return Ok(Value::Table(self.entries(table, key, depth)?));
         }
         if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
             let elements = value.try_iter()?.enumerate();
@@ -116,6 +92,31 @@ impl Stock {
         };
         let right = "must be a number, a text, a path, a list, a dict or an array of numpy";
         Err(errors::of_argument(key, found, right))
+    }
+
+    /// The entries of a table that lies at `key`.
+    fn entries(
+        &mut self,
+        table: &Bound<'_, PyDict>,
+        key: &str,
+        depth: usize,
+    ) -> PyResult<toml::Table> {
+        let mut read = toml::Table::new();
+        for (name, value) in table.iter() {
+            let Ok(name) = name.extract::<String>() else {
+                let found = format!("found a key of type {}", type_of(&name));
+                return Err(errors::of_argument(key, found, "keys must be texts"));
+            };
+            let key = match key {
+                "" => name.clone(),
+                key => format!("{key}.{name}"),
+            };
+            // None counts as missing: TOML has no such value.
+            if !value.is_none() {
+                read.insert(name, self.value(&value, &key, depth + 1)?);
+            }
+        }
+        Ok(read)
     }
 
     fn named(&mut self, name: &str, handle: &Bound<'_, PyAny>) -> Value {
@@ -154,6 +155,18 @@ impl Stock {
             Value::Table(table) => self.dict(py, table)?.into_any(),
         })
     }
+}
+
+fn integer(value: &Bound<'_, PyAny>, key: &str) -> PyResult<i64> {
+    value.extract::<i64>().map_err(|error| {
+        match error.is_instance_of::<PyOverflowError>(value.py()) {
+            true => {
+                let found = format!("found the whole number {value}");
+                errors::of_argument(key, found, "must be from -2^63 to 2^63 - 1")
+            }
+            false => error,
+        }
+    })
 }
 
 /// `torch.Tensor`, `numpy.ndarray`, `int`
