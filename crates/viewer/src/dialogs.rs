@@ -155,32 +155,34 @@ const ADVICE: [(&str, [&str; 4]); 2] = [
     ),
 ];
 
+/// Actions of the mouse in the picture.
+const MOUSE: [(&str, &str); 10] = [
+    ("Drag", "turns the view"),
+    ("Shift and drag, or the middle button", "moves the view"),
+    (
+        "Alt and drag, or the right button",
+        "turns the view with any tool",
+    ),
+    (
+        "Wheel forward, or fingers apart",
+        "comes nearer to what is under the mouse",
+    ),
+    ("Wheel back, or fingers together", "goes away from it"),
+    ("Click", "selects"),
+    ("Right click", "shows what can be done with it"),
+    ("Double click", "looks at the point"),
+    (
+        "Drag a material, wear or scratches from their cards",
+        "onto an object or a part",
+    ),
+    (
+        "Drop a file",
+        "opens a scene, adds a model, sets the environment",
+    ),
+];
+
 /// Shows all keys and the actions of the mouse; true when it is to be closed.
 fn help(ui: &mut Ui) -> bool {
-    const MOUSE: [(&str, &str); 10] = [
-        ("Drag", "turns the view"),
-        ("Shift and drag, or the middle button", "moves the view"),
-        (
-            "Alt and drag, or the right button",
-            "turns the view with any tool",
-        ),
-        (
-            "Wheel forward, or fingers apart",
-            "comes nearer to what is under the mouse",
-        ),
-        ("Wheel back, or fingers together", "goes away from it"),
-        ("Click", "selects"),
-        ("Right click", "shows what can be done with it"),
-        ("Double click", "looks at the point"),
-        (
-            "Drag a material, wear or scratches from their cards",
-            "onto an object or a part",
-        ),
-        (
-            "Drop a file",
-            "opens a scene, adds a model, sets the environment",
-        ),
-    ];
     // egui has these keys by itself.
     const SIZES: &str = "Ctrl and +, - or 0: all of the window larger, smaller, as it was";
     const MENUS: &str = "Alt and the first letter of a menu: opens it";

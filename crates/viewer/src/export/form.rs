@@ -143,64 +143,7 @@ impl Form {
             ui.add_space(4.0);
             let mut answer = None;
             Grid::new("export").num_columns(2).show(ui, |ui| {
-                self.size_rows(ui, scene.window_px, scene.scene_px);
-                let samples = DragValue::new(&mut self.samples).range(1..=4096);
-                row(ui, "Samples", samples).on_hover_text(
-                    "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to \
-                     each light",
-                );
-                if scene.has_lens {
-                    ui.label("");
-                    ui.label(RichText::new(self.lens_remark()).weak());
-                    ui.end_row();
-                }
-                if scene.is_view_free {
-                    ui.label("Seen from");
-                    ui.horizontal(|ui| {
-                        ui.selectable_value(&mut self.is_as_seen, true, "Where the window looks from");
-                        ui.selectable_value(&mut self.is_as_seen, false, "The scene's camera");
-                    });
-                    ui.end_row();
-                }
-                ui.label("");
-                let mut is_transparent = self.is_transparent || scene.cuts_out;
-                let transparent = Checkbox::new(&mut is_transparent, "Transparent background");
-                let transparent = ui.add_enabled(!scene.cuts_out, transparent);
-                if transparent.changed() {
-                    self.is_transparent = is_transparent;
-                }
-                transparent.on_hover_text(
-                        "PNG and EXR get an alpha channel: the share of each pixel that objects cover. The environment lights \
-                         them and is not seen",
-                    );
-                ui.end_row();
-                if self.is_turntable {
-                    ui.label("Turns");
-                    ui.horizontal(|ui| {
-                        ui.selectable_value(&mut self.turns, Turns::Object, "The objects")
-                            .on_hover_text("Before the camera and under the lights, which stand still");
-                        ui.selectable_value(&mut self.turns, Turns::Camera, "The camera")
-                            .on_hover_text("Around the objects and under the lights: what a floor mirrors swings by");
-                        ui.selectable_value(&mut self.turns, Turns::Lights, "The lights")
-                            .on_hover_text("Lights, studio and environment, about objects and camera that stand still");
-                    });
-                    ui.end_row();
-                    let frames = DragValue::new(&mut self.frames).range(1..=9999);
-                    if row(ui, "Pictures", frames).changed() {
-                        self.question = None;
-                    }
-                    let degrees = DragValue::new(&mut self.degrees)
-                        .range(-3600.0..=3600.0)
-                        .suffix("°");
-                    row(ui, "Turn by", degrees).on_hover_text(
-                        "In all, about the camera's up through its target. The step after the last picture would \
-                         complete it, so that 360° go round without a jump",
-                    );
-                    if is_animation(&self.path(), self.motion()) {
-                        let fps = DragValue::new(&mut self.fps).range(1..=FPS_MAX);
-                        row(ui, "Pictures in a second", fps);
-                    }
-                }
+                self.rows(ui, scene);
                 answer = self.path_row(ui);
             });
             self.remarks(ui, scene);
@@ -222,6 +165,75 @@ impl Form {
             // Escape answers the question first.
             true if self.question.take().is_some() => modal.inner,
             should_close => modal.inner.or(should_close.then_some(Answer::Close)),
+        }
+    }
+
+    fn rows(&mut self, ui: &mut Ui, scene: &ExportContext) {
+        self.size_rows(ui, scene.window_px, scene.scene_px);
+        let samples = DragValue::new(&mut self.samples).range(1..=4096);
+        row(ui, "Samples", samples).on_hover_text(
+            "Samples of a pixel that has an edge or a crease in it; elsewhere one is enough. With shadows also the rays to \
+             each light",
+        );
+        if scene.has_lens {
+            ui.label("");
+            ui.label(RichText::new(self.lens_remark()).weak());
+            ui.end_row();
+        }
+        if scene.is_view_free {
+            ui.label("Seen from");
+            ui.horizontal(|ui| {
+                ui.selectable_value(&mut self.is_as_seen, true, "Where the window looks from");
+                ui.selectable_value(&mut self.is_as_seen, false, "The scene's camera");
+            });
+            ui.end_row();
+        }
+        ui.label("");
+        let mut is_transparent = self.is_transparent || scene.cuts_out;
+        let transparent = Checkbox::new(&mut is_transparent, "Transparent background");
+        let transparent = ui.add_enabled(!scene.cuts_out, transparent);
+        if transparent.changed() {
+            self.is_transparent = is_transparent;
+        }
+        transparent.on_hover_text(
+            "PNG and EXR get an alpha channel: the share of each pixel that objects cover. The environment lights \
+             them and is not seen",
+        );
+        ui.end_row();
+        if self.is_turntable {
+            self.turntable_rows(ui);
+        }
+    }
+
+    fn turntable_rows(&mut self, ui: &mut Ui) {
+        ui.label("Turns");
+        ui.horizontal(|ui| {
+            ui.selectable_value(&mut self.turns, Turns::Object, "The objects")
+                .on_hover_text("Before the camera and under the lights, which stand still");
+            ui.selectable_value(&mut self.turns, Turns::Camera, "The camera")
+                .on_hover_text(
+                    "Around the objects and under the lights: what a floor mirrors swings by",
+                );
+            ui.selectable_value(&mut self.turns, Turns::Lights, "The lights")
+                .on_hover_text(
+                    "Lights, studio and environment, about objects and camera that stand still",
+                );
+        });
+        ui.end_row();
+        let frames = DragValue::new(&mut self.frames).range(1..=9999);
+        if row(ui, "Pictures", frames).changed() {
+            self.question = None;
+        }
+        let degrees = DragValue::new(&mut self.degrees)
+            .range(-3600.0..=3600.0)
+            .suffix("°");
+        row(ui, "Turn by", degrees).on_hover_text(
+            "In all, about the camera's up through its target. The step after the last picture would \
+             complete it, so that 360° go round without a jump",
+        );
+        if is_animation(&self.path(), self.motion()) {
+            let fps = DragValue::new(&mut self.fps).range(1..=FPS_MAX);
+            row(ui, "Pictures in a second", fps);
         }
     }
 

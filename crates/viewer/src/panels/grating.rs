@@ -24,6 +24,35 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.optional_name(&mut grating.name);
     form.object("What its grooves are in", &description, &mut grating.object);
     form.flag(Grating::HIDDEN, &mut grating.hidden);
+    groove_rows(&mut form, &mut grating);
+    form.seed(&mut grating.seed);
+    grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
+    groove_pattern::rows(&mut form, &mut grating.pattern, index);
+    if grating.pattern.axis().is_some() {
+        grating.center_m = None;
+    }
+    place_rows(&mut form, &mut grating, index, everywhere_m);
+    work.choose_picture(form.wanted());
+    if let Some(change) = form.change() {
+        work.drag(&change.label, change.key, |d| {
+            d.gratings[index] = grating.clone();
+        });
+    }
+    ui.add_space(8.0);
+    ui.horizontal_wrapped(|ui| {
+        for command in [
+            Command::Duplicate,
+            Command::MoveUp,
+            Command::MoveDown,
+            Command::Delete,
+        ] {
+            super::button(ui, work, command);
+        }
+    });
+}
+
+/// Rows for the grooves themselves.
+fn groove_rows(form: &mut Form, grating: &mut Grating) {
     let mut pitch_um = grating.pitch_um;
     form.number(Grating::PITCH_UM, &mut pitch_um);
     if pitch_um != grating.pitch_um {
@@ -49,12 +78,10 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             &mut grating.theory,
         );
     }
-    form.seed(&mut grating.seed);
-    grating.jitter_um = grating.jitter_um.min(grating.pitch_um);
-    groove_pattern::rows(&mut form, &mut grating.pattern, index);
-    if grating.pattern.axis().is_some() {
-        grating.center_m = None;
-    }
+}
+
+/// Rows for where the grooves are. `everywhere_m` is as far as the object reaches.
+fn place_rows(form: &mut Form, grating: &mut Grating, index: usize, everywhere_m: f64) {
     form.number(Grating::COVERAGE, &mut grating.coverage);
     form.picture(
         "Mask",
@@ -63,7 +90,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         PictureOf::GratingMask(index),
     );
     match grating.mask {
-        Some(_) => tile(&mut form, &mut grating.tile_m),
+        Some(_) => tile(form, &mut grating.tile_m),
         None => grating.tile_m = None,
     }
     let texts = [
@@ -71,13 +98,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         "Grooves inside of a circle, outside of one, or in a ring",
     ];
     let begin = [0.0, everywhere_m];
-    match radii(
-        &mut form,
-        texts,
-        Grating::RADIUS_M,
-        &mut grating.radius_m,
-        begin,
-    ) {
+    match radii(form, texts, Grating::RADIUS_M, &mut grating.radius_m, begin) {
         false => grating.center_m = None,
         true if grating.pattern.axis().is_none() => {
             let center_m = grating.center_m.get_or_insert_default();
@@ -85,21 +106,4 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }
         true => {}
     }
-    work.choose_picture(form.wanted());
-    if let Some(change) = form.change() {
-        work.drag(&change.label, change.key, |d| {
-            d.gratings[index] = grating.clone();
-        });
-    }
-    ui.add_space(8.0);
-    ui.horizontal_wrapped(|ui| {
-        for command in [
-            Command::Duplicate,
-            Command::MoveUp,
-            Command::MoveDown,
-            Command::Delete,
-        ] {
-            super::button(ui, work, command);
-        }
-    });
 }

@@ -134,35 +134,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     if kind != MaterialChoice::from_kind(&material.kind) {
         material.kind = kind.begin();
     }
-    match &mut material.kind {
-        MaterialKind::Metal(MetalColor::Measured(metal)) => {
-            form.choice("Metal", "By its measured n and k", metals(), metal);
-            let hint = "Their reflectance at normal incidence in daylight, D65";
-            form.custom("", hint, |ui, _| metal_swatches(ui, metal));
-        }
-        MaterialKind::Metal(MetalColor::Own(rows)) => {
-            let hint =
-                "Rows of a wavelength, n and k: `n_k` of the scene file, where they are changed";
-            let rows = rows.len();
-            form.custom("n and k", hint, |ui, _| {
-                ui.label(format!("{rows} rows"));
-                false
-            });
-        }
-        MaterialKind::MetallicRoughness {
-            base_color,
-            metallic,
-            specular,
-        } => {
-            form.color(MaterialKind::BASE_COLOR, base_color);
-            form.number(MaterialKind::METALLIC, metallic);
-            // A metal takes no part in it.
-            if *metallic < 1.0 {
-                specular.rows(&mut form);
-            }
-        }
-        kind => kind.rows(&mut form),
-    }
+    kind_rows(&mut form, &mut material.kind);
     form.number(Material::ROUGHNESS, &mut material.roughness);
     anisotropy_rows(&mut form, &mut material.anisotropy);
     coat_rows(&mut form, &mut material.coat);
@@ -200,6 +172,39 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         super::button(ui, work, Command::Duplicate);
         super::button(ui, work, Command::Delete);
     });
+}
+
+/// Rows for what a surface is made of.
+fn kind_rows(form: &mut Form, kind: &mut MaterialKind) {
+    match kind {
+        MaterialKind::Metal(MetalColor::Measured(metal)) => {
+            form.choice("Metal", "By its measured n and k", metals(), metal);
+            let hint = "Their reflectance at normal incidence in daylight, D65";
+            form.custom("", hint, |ui, _| metal_swatches(ui, metal));
+        }
+        MaterialKind::Metal(MetalColor::Own(rows)) => {
+            let hint =
+                "Rows of a wavelength, n and k: `n_k` of the scene file, where they are changed";
+            let rows = rows.len();
+            form.custom("n and k", hint, |ui, _| {
+                ui.label(format!("{rows} rows"));
+                false
+            });
+        }
+        MaterialKind::MetallicRoughness {
+            base_color,
+            metallic,
+            specular,
+        } => {
+            form.color(MaterialKind::BASE_COLOR, base_color);
+            form.number(MaterialKind::METALLIC, metallic);
+            // A metal takes no part in it.
+            if *metallic < 1.0 {
+                specular.rows(form);
+            }
+        }
+        kind => kind.rows(form),
+    }
 }
 
 /// The measured metals, by name.

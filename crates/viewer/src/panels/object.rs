@@ -1,6 +1,7 @@
 //! An object: its place, its material, and the layers on it.
 
 use egui::Ui;
+use hairline_document::Description;
 use hairline_document::description::{Object, Rows, Shape, Surface, Up};
 use hairline_document::wear::{self, Wear};
 use hairline_editor::Selection;
@@ -45,24 +46,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.vector(Object::TRANSLATION_M, &mut object.translation_m);
     form.vector(Object::ROTATION_DEG, &mut object.rotation_deg);
     scale(&mut form, &mut object.scale);
-    match &mut object.surface {
-        Surface::Mesh(file) => {
-            form.custom("File", "", |ui, _| {
-                ui.add(egui::Label::new(file.display().to_string()).truncate());
-                false
-            });
-            let axes = [(Up::Y, "y"), (Up::Z, "z, as in CAD")];
-            form.choice(
-                "Up",
-                "Which axis of the model's file points up",
-                axes.map(|(up, name)| (up, name.to_owned())),
-                &mut object.up,
-            );
-            fit_rows(&mut form, &mut object.fit_m);
-            time_rows(&mut form, &mut object.time_s, &mut object.animation);
-        }
-        Surface::Shape(shape) => shape_rows(&mut form, shape),
-    }
+    surface_rows(&mut form, &mut object);
     if let Some(change) = form.change() {
         if name != object.name {
             work.apply("Rename object", |d, _| objects::rename(d, index, &name));
@@ -81,8 +65,41 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         .on_hover_text("The metals and the other presets of materials");
     overrides::section(ui, work, index);
     ui.add_space(8.0);
+    layer_links(ui, work, &description, index);
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
+            super::button(ui, work, command);
+        }
+    });
+}
+
+/// Rows for the file or the shape of an object.
+fn surface_rows(form: &mut Form, object: &mut Object) {
+    match &mut object.surface {
+        Surface::Mesh(file) => {
+            form.custom("File", "", |ui, _| {
+                ui.add(egui::Label::new(file.display().to_string()).truncate());
+                false
+            });
+            let axes = [(Up::Y, "y"), (Up::Z, "z, as in CAD")];
+            form.choice(
+                "Up",
+                "Which axis of the model's file points up",
+                axes.map(|(up, name)| (up, name.to_owned())),
+                &mut object.up,
+            );
+            fit_rows(form, &mut object.fit_m);
+            time_rows(form, &mut object.time_s, &mut object.animation);
+        }
+        Surface::Shape(shape) => shape_rows(form, shape),
+    }
+}
+
+/// Links to the layers and the gratings of an object, and what adds further ones.
+fn layer_links(ui: &mut Ui, work: &mut Workspace, description: &Description, index: usize) {
     ui.strong("Scratches");
-    for i in objects::layers(&description, index) {
+    for i in objects::layers(description, index) {
         if ui.link(layers::title(&description.scratches[i])).clicked() {
             work.document.select(Selection::Layer(i));
         }
@@ -90,7 +107,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.menu_button("Add scratches…", |ui| add_layer(ui, work, index));
     ui.add_space(8.0);
     ui.strong("Gratings");
-    for i in objects::gratings(&description, index) {
+    for i in objects::gratings(description, index) {
         if ui.link(gratings::title(&description.gratings[i])).clicked() {
             work.document.select(Selection::Grating(i));
         }
@@ -98,12 +115,6 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     ui.menu_button("Add grating…", |ui| add_grating(ui, work, index))
         .response
         .on_hover_text("Grooves side by side, finer than a pixel: their light interferes");
-    ui.add_space(8.0);
-    ui.horizontal(|ui| {
-        for command in [Command::FrameSelection, Command::Duplicate, Command::Delete] {
-            super::button(ui, work, command);
-        }
-    });
 }
 
 /// The presets of materials as a menu. A material of the scene that is equal to the preset is taken again.

@@ -19,18 +19,7 @@ use crate::workspace::Workspace;
 pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     let description = work.document.description().clone();
     line(ui, work, Selection::Camera, "Camera", true);
-    let map = match description.environment.as_ref().map(|e| &e.map) {
-        None => "none".into(),
-        Some(Map::BuiltIn(map)) => maps::name(*map).into(),
-        Some(Map::File(file)) => file.file_name().unwrap_or_default().to_string_lossy(),
-    };
-    line(
-        ui,
-        work,
-        Selection::Environment,
-        &format!("Environment: {map}"),
-        true,
-    );
+    environment_line(ui, work, &description);
 
     section(ui, "Objects", |ui| {
         if Command::AddModel.is_here() {
@@ -47,32 +36,7 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
             tooltip: "Hide or show the object with all that lies on it",
         };
         there.line(ui, work);
-        ui.indent(("layers", i), |ui| {
-            for layer in objects::layers(&description, i) {
-                layer_line(ui, work, &description, layer);
-            }
-            for grating in objects::gratings(&description, i) {
-                let grooves = &description.gratings[grating];
-                let shining = Switched {
-                    selection: Selection::Grating(grating),
-                    name: &gratings::title(grooves),
-                    is_shown: !grooves.hidden,
-                    what: &format!("grating {}", grating + 1),
-                    tooltip: "Hide or show the grating",
-                };
-                shining.line(ui, work);
-            }
-            ui.horizontal(|ui| {
-                let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, i));
-                add.response
-                    .on_hover_text(format!("Lay a layer of scratches on {}", object.name));
-                let add = ui.menu_button("+ grating", |ui| add_grating(ui, work, i));
-                add.response.on_hover_text(format!(
-                    "Cover {} with grooves that are finer than a pixel",
-                    object.name
-                ));
-            });
-        });
+        ui.indent(("layers", i), |ui| layers_of(ui, work, &description, i));
     }
 
     let ground = Switched {
@@ -115,6 +79,44 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     for (i, look) in description.looks.iter().enumerate() {
         line(ui, work, Selection::Look(i), &look.name, true);
     }
+}
+
+fn environment_line(ui: &mut Ui, work: &mut Workspace, description: &Description) {
+    let map = match description.environment.as_ref().map(|e| &e.map) {
+        None => "none".into(),
+        Some(Map::BuiltIn(map)) => maps::name(*map).into(),
+        Some(Map::File(file)) => file.file_name().unwrap_or_default().to_string_lossy(),
+    };
+    let name = format!("Environment: {map}");
+    line(ui, work, Selection::Environment, &name, true);
+}
+
+/// The layers and the gratings of an object, and what adds further ones.
+fn layers_of(ui: &mut Ui, work: &mut Workspace, description: &Description, object: usize) {
+    for layer in objects::layers(description, object) {
+        layer_line(ui, work, description, layer);
+    }
+    for grating in objects::gratings(description, object) {
+        let grooves = &description.gratings[grating];
+        let shining = Switched {
+            selection: Selection::Grating(grating),
+            name: &gratings::title(grooves),
+            is_shown: !grooves.hidden,
+            what: &format!("grating {}", grating + 1),
+            tooltip: "Hide or show the grating",
+        };
+        shining.line(ui, work);
+    }
+    let name = &description.objects[object].name;
+    ui.horizontal(|ui| {
+        let add = ui.menu_button("+ scratches", |ui| add_layer(ui, work, object));
+        add.response
+            .on_hover_text(format!("Lay a layer of scratches on {name}"));
+        let add = ui.menu_button("+ grating", |ui| add_grating(ui, work, object));
+        add.response.on_hover_text(format!(
+            "Cover {name} with grooves that are finer than a pixel"
+        ));
+    });
 }
 
 fn layer_line(ui: &mut Ui, work: &mut Workspace, description: &Description, i: usize) {

@@ -188,31 +188,8 @@ impl ViewBuilder {
             Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
             _ => Arc::new(TriangleIndex::build(&scene)),
         };
-        let mut viewed = scene.clone();
-        if let Some(View {
-            camera, size_px, ..
-        }) = view
-        {
-            (viewed.camera, viewed.render.size_px) = (camera, size_px);
-        }
-        let scratches = match last {
-            Some(last)
-                if has_same_scratches(&last.scene, &scene)
-                    && (last.scratches).serves(&viewed.camera, viewed.render.size_px) =>
-            {
-                Arc::clone(&last.scratches)
-            }
-            _ => {
-                let before = last.map(|last| (&last.scene, &*last.scratches));
-                let watch = Watch {
-                    cancelled,
-                    ..Watch::default()
-                };
-                match ScratchIndex::rebuild(&viewed, Pieces::Near, before, &watch) {
-                    Some(scratches) => Arc::new(scratches),
-                    None => return Ok(None),
-                }
-            }
+        let Some(scratches) = scratches(&scene, view, last, cancelled) else {
+            return Ok(None);
         };
         let index_done = Instant::now();
         let tables = match last {
@@ -248,6 +225,34 @@ impl ViewBuilder {
             },
         }))
     }
+}
+
+/// Scratches of a scene for a view of it; none where `cancelled` says so.
+fn scratches(
+    scene: &Scene,
+    view: Option<View>,
+    last: Option<&LastBuild>,
+    cancelled: &(dyn Fn() -> bool + Sync),
+) -> Option<Arc<ScratchIndex>> {
+    let mut viewed = scene.clone();
+    if let Some(View {
+        camera, size_px, ..
+    }) = view
+    {
+        (viewed.camera, viewed.render.size_px) = (camera, size_px);
+    }
+    if let Some(last) = last
+        && has_same_scratches(&last.scene, scene)
+        && (last.scratches).serves(&viewed.camera, viewed.render.size_px)
+    {
+        return Some(Arc::clone(&last.scratches));
+    }
+    let before = last.map(|last| (&last.scene, &*last.scratches));
+    let watch = Watch {
+        cancelled,
+        ..Watch::default()
+    };
+    ScratchIndex::rebuild(&viewed, Pieces::Near, before, &watch).map(Arc::new)
 }
 
 fn has_same_meshes(a: &Scene, b: &Scene) -> bool {

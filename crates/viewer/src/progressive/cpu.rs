@@ -79,6 +79,93 @@ impl CpuStepRenderer {
             refresh: band_size.breaks_off.then_some(REFRESH),
         }
     }
+
+    /// The picture of a step that is done, with those that it adds to.
+    fn done(&mut self, order: &Order, step: &Step, image: Image) -> Last {
+        let (mut image, samples) = match step.batch {
+            None => (image, step.samples),
+            Some(batch) => self.done_batches.add(order, batch, image),
+        };
+        image.traced = None;
+        Last {
+            image,
+            step: *step,
+            order: order.clone(),
+            samples,
+            shown: RefCell::default(),
+        }
+    }
+
+    /// What is there of a step: of one that was begun its picture, or the edges of one that it refines.
+    fn bands(&mut self, order: &Order, step: &Step) -> Bands {
+        let is_same = |of: &Order| of.has_same_pixels(order);
+        let begun = self.begun.take();
+        let begun = begun.filter(|begun| begun.step == *step && is_same(&begun.order));
+        let before = self.last.as_ref().filter(|last| is_same(&last.order));
+        match (begun, before) {
+            (Some(begun), _) => begun.bands,
+            (None, Some(last)) if step.refines(&last.step, &order.view) => {
+                Bands::edges_of(last.image.clone(), self.band_size)
+            }
+            (None, _) => Bands::new(step.size_px, self.band_size),
+        }
+    }
+}
+
+/// The picture before a step, which is shown until the step is done.
+struct Waiting<'a> {
+    last: &'a Last,
+    refresh: Duration,
+    shown: Instant,
+    backdrop: Option<Backdrop>,
+}
+
+impl<'a> Waiting<'a> {
+    fn new(last: &'a Last, refresh: Duration) -> Self {
+        Self {
+            last,
+            refresh,
+            shown: Instant::now(),
+            backdrop: None,
+        }
+    }
+
+    /// Shows how far a step is, unless something was shown a moment ago.
+    fn show(
+        &mut self,
+        order: &Order,
+        step: &Step,
+        bands: &Bands,
+        show: &mut dyn FnMut(RenderedStep),
+    ) {
+        if self.shown.elapsed() <= self.refresh {
+            return;
+        }
+        let last = self.last;
+        if step.is_added() {
+            // Rows of a round are noise until all are there to be filtered: the status line tells how far they are.
+            show(RenderedStep {
+                done: bands.done(),
+                ..last.shown(order)
+            });
+        } else if !bands.only_edges && order.view.reading.shows == Shows::Beauty {
+            let backdrop = self.backdrop.get_or_insert_with(|| {
+                Backdrop::new(&last.image, step.size_px, &order.view.display)
+            });
+            show(RenderedStep {
+                picture: backdrop.composite(&bands.image, bands.next_row),
+                size_px: step.size_px,
+                samples: step.samples,
+                of_samples: None,
+                transport: step.transport,
+                thin: step.thin,
+                done: bands.done(),
+                passes: Vec::new(),
+                findings: Findings::default(),
+            });
+        }
+        self.shown = Instant::now();
+    }
 }
 
 impl StepRenderer for CpuStepRenderer {
@@ -99,20 +186,8 @@ impl StepRenderer for CpuStepRenderer {
         interrupted: &(dyn Fn() -> bool + Sync),
         show: &mut dyn FnMut(RenderedStep),
     ) -> Result<bool, hairline_gpu::Error> {
-        let begun = self
-            .begun
-            .take()
-            .filter(|begun| begun.step == *step && begun.order.has_same_pixels(order));
+        let mut bands = self.bands(order, step);
         let is_coarse = step.samples == 1 && !step.is_whole(&order.view);
-        let before = self.last.as_ref();
-        let before = before.filter(|last| last.order.has_same_pixels(order));
-        let mut bands = match (begun, before) {
-            (Some(begun), _) => begun.bands,
-            (None, Some(last)) if step.refines(&last.step, &order.view) => {
-                Bands::edges_of(last.image.clone(), self.band_size)
-            }
-            (None, _) => Bands::new(step.size_px, self.band_size),
-        };
         let pool = if is_coarse {
             Pool::Sketcher
         } else {
@@ -124,52 +199,26 @@ impl StepRenderer for CpuStepRenderer {
             let draft = pool.install(|| self.drafts.draft(&order.built, step.thin));
             prepared = prepared.with_draft(draft);
         }
-        // What was there before it, shown until the step is done.
-        let waiting = before.zip(self.refresh).filter(|_| !is_coarse);
-        let shows_rows = !bands.only_edges && order.view.reading.shows == Shows::Beauty;
+        let before = self.last.as_ref().zip(self.refresh);
+        let mut waiting = before
+            .filter(|(last, _)| !is_coarse && last.order.has_same_pixels(order))
+            .map(|(last, refresh)| Waiting::new(last, refresh));
         let options = RenderOptions {
             batch: step.batch,
             ..Task::new(step.samples, step.transport).options()
         };
-        let mut backdrop = None;
-        let mut shown_last = Instant::now();
         let is_done = loop {
             if interrupted() {
                 break false;
             }
-            let go_on = pool.install(|| bands.next(&prepared, &options, interrupted));
-            match go_on {
+            match pool.install(|| bands.next(&prepared, &options, interrupted)) {
                 Some(true) => break true,
                 Some(false) => {}
                 None => break false,
             }
-            let Some((last, _)) = waiting.filter(|(_, refresh)| shown_last.elapsed() > *refresh)
-            else {
-                continue;
-            };
-            if step.is_added() {
-                // Rows of a round are noise until all are there to be filtered: the status line tells how far they are.
-                show(RenderedStep {
-                    done: bands.done(),
-                    ..last.shown(order)
-                });
-            } else if shows_rows {
-                let backdrop = backdrop.get_or_insert_with(|| {
-                    Backdrop::new(&last.image, step.size_px, &order.view.display)
-                });
-                show(RenderedStep {
-                    picture: backdrop.composite(&bands.image, bands.next_row),
-                    size_px: step.size_px,
-                    samples: step.samples,
-                    of_samples: None,
-                    transport: step.transport,
-                    thin: step.thin,
-                    done: bands.done(),
-                    passes: Vec::new(),
-                    findings: Findings::default(),
-                });
+            if let Some(waiting) = &mut waiting {
+                waiting.show(order, step, &bands, show);
             }
-            shown_last = Instant::now();
         };
         if !is_done {
             self.begun = Some(UnfinishedPicture {
@@ -179,18 +228,7 @@ impl StepRenderer for CpuStepRenderer {
             });
             return Ok(false);
         }
-        let (mut image, samples) = match step.batch {
-            None => (bands.image, step.samples),
-            Some(batch) => pool.install(|| self.done_batches.add(order, batch, bands.image)),
-        };
-        image.traced = None;
-        let last = Last {
-            image,
-            step: *step,
-            order: order.clone(),
-            samples,
-            shown: RefCell::default(),
-        };
+        let last = pool.install(|| self.done(order, step, bands.image));
         show(last.shown(order));
         self.last = Some(last);
         Ok(true)

@@ -118,6 +118,51 @@ impl GpuStepRenderer {
         }))
     }
 
+    /// The last canvas, or an empty one of another size.
+    async fn canvas(&mut self, size_px: [u32; 2]) -> Result<Canvas, Error> {
+        let band_px = match self.renderer.gpu().adapter.kind {
+            AdapterKind::Software => SOFTWARE_BAND_PX,
+            _ => HARDWARE_BAND_PX,
+        };
+        match self.canvas.take() {
+            Some(canvas) if canvas.size_px() == size_px => Ok(canvas),
+            _ => self.renderer.canvas(size_px, band_px).await,
+        }
+    }
+
+    /// Keeps what a step adds to. The canvas still has the picture before it.
+    async fn begin_mean(&mut self, canvas: &Canvas, step: &Step) -> Result<(), Error> {
+        let before = self.step.replace(*step);
+        self.mean = match step.batch {
+            Some(batch) if batch.first > 0 => self.mean.take(),
+            // While the first rays come, the picture before them is shown by any exposure.
+            Some(_) if before.is_some_and(|it| it.size_px == step.size_px && !it.is_added()) => {
+                Some((canvas.image().await?, 1))
+            }
+            _ => None,
+        };
+        Ok(())
+    }
+
+    /// Adds the shadows of a step to the scene, if it lacks them.
+    async fn add_shadows(&mut self, order: &Order, step: &Step) -> Result<(), Error> {
+        let Transport { shadows, bounces } = step.transport;
+        if let Some((_, uploaded)) = &mut self.uploaded
+            && shadows
+            && self.bounces != Some(bounces)
+        {
+            let scene = &order.built.scene;
+            self.renderer.add_shadows(uploaded, scene, bounces).await?;
+            self.bounces = Some(bounces);
+        }
+        Ok(())
+    }
+
+    /// Samples of the mean.
+    fn samples(&self) -> Option<u32> {
+        self.mean.as_ref().map(|(_, samples)| *samples)
+    }
+
     async fn pass_times(&mut self) -> Result<Vec<PassTime>, Error> {
         if !self.is_timed {
             return Ok(Vec::new());
@@ -166,27 +211,9 @@ impl StepRenderer for GpuStepRenderer {
         interrupted: &(dyn Fn() -> bool + Sync),
         show: &mut dyn FnMut(RenderedStep),
     ) -> Result<bool, Error> {
-        let gpu = self.renderer.gpu().clone();
-        let is_software = gpu.adapter.kind == AdapterKind::Software;
-        let band_px = if is_software {
-            SOFTWARE_BAND_PX
-        } else {
-            HARDWARE_BAND_PX
-        };
-        let mut canvas = match self.canvas.take() {
-            Some(canvas) if canvas.size_px() == step.size_px => canvas,
-            _ => self.renderer.canvas(step.size_px, band_px).await?,
-        };
+        let mut canvas = self.canvas(step.size_px).await?;
         let scene = step.scene(order);
-        let before = self.step.replace(*step);
-        self.mean = match step.batch {
-            Some(batch) if batch.first > 0 => self.mean.take(),
-            // While the first rays come, the picture before them is shown by any exposure.
-            Some(_) if before.is_some_and(|it| it.size_px == step.size_px && !it.is_added()) => {
-                Some((canvas.image().await?, 1))
-            }
-            _ => None,
-        };
+        self.begin_mean(&canvas, step).await?;
         let mut last_shown = Instant::now();
         let options = RenderOptions {
             samples: step.samples,
@@ -194,15 +221,7 @@ impl StepRenderer for GpuStepRenderer {
             without_shadows: !step.transport.shadows,
             ..RenderOptions::default()
         };
-        let Transport { shadows, bounces } = step.transport;
-        if let Some((_, uploaded)) = &mut self.uploaded
-            && shadows
-            && self.bounces != Some(bounces)
-        {
-            let scene = &order.built.scene;
-            self.renderer.add_shadows(uploaded, scene, bounces).await?;
-            self.bounces = Some(bounces);
-        }
+        self.add_shadows(order, step).await?;
         let batch = step.batch.unwrap_or(Batch::all(step.samples));
         let steps = hairline_gpu::steps(batch.count);
         for part in 0..steps {
@@ -227,10 +246,7 @@ impl StepRenderer for GpuStepRenderer {
                 let image = canvas.image().await?;
                 self.mean = Some(self.done_batches.add(order, batch, image));
             }
-            let samples = match &self.mean {
-                Some((_, samples)) => *samples,
-                None => part.max(1),
-            };
+            let samples = self.samples().unwrap_or(part.max(1));
             let is_finer = step.batch.is_none() && samples >= FEWEST_SHOWN;
             if is_last || is_finer && last_shown.elapsed() > REFRESH {
                 self.canvas = Some(canvas);
@@ -249,10 +265,8 @@ impl StepRenderer for GpuStepRenderer {
     }
 
     async fn show_again(&mut self, order: &Order) -> Result<Option<RenderedStep>, Error> {
-        let samples = match &self.mean {
-            Some((_, samples)) => *samples,
-            None => self.step.map_or(1, |step| step.samples),
-        };
+        let shown = self.step.map_or(1, |step| step.samples);
+        let samples = self.samples().unwrap_or(shown);
         self.shown(order, samples).await
     }
 

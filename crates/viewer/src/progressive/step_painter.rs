@@ -144,20 +144,25 @@ impl StepPainter {
                 let segments = order.built.segments;
                 self.pace.took(step.size_px, step.thin, segments, time);
             }
-            let latency = (is_new || self.latency_told != Some(order.built.revision)).then(|| {
-                self.latency_told = Some(order.built.revision);
-                Latency {
-                    revision: order.built.revision,
-                    build: order.built.stages,
-                    upload: uploaded,
-                    paint: time,
-                    total: order.built.asked.elapsed(),
-                }
-            });
+            let is_told = !is_new && self.latency_told == Some(order.built.revision);
+            let latency = (!is_told).then(|| self.latency(order, uploaded, time));
             let is_final = turn == Turn::Last && finished;
             self.put(shared, order, shown, is_final, time, latency);
         }
         Ok(finished)
+    }
+
+    /// The times of a scene's first picture, to be told once.
+    fn latency(&mut self, order: &Order, upload: Duration, paint: Duration) -> Latency {
+        let built = &order.built;
+        self.latency_told = Some(built.revision);
+        Latency {
+            revision: built.revision,
+            build: built.stages,
+            upload,
+            paint,
+            total: built.asked.elapsed(),
+        }
     }
 
     /// Expects the rest of the samples to take as long as those of a batch, of which a share is done.

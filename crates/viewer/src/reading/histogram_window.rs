@@ -1,6 +1,6 @@
 //! The window of the histogram.
 
-use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, Stroke, Ui, pos2, vec2};
 
 use super::window::window;
 use super::{Histogram, histogram};
@@ -53,6 +53,22 @@ fn plot(ui: &mut Ui, histogram: &Histogram) {
         line,
         Stroke::new(1.25, Color32::from_gray(225)),
     ));
+    draw_stops(&painter, plot, ui.visuals().text_color());
+    response.on_hover_text(
+        "Pixels of the scene's picture by stops from middle grey, as exposed; counts on a logarithmic scale. White line: \
+         luminance",
+    );
+    ui.label(format!(
+        "white {}, black {}, without light {}",
+        percent(histogram.white),
+        percent(histogram.black),
+        percent(histogram.unlit)
+    ))
+    .on_hover_text("Shares of the pixels with a channel at the display's white, with all channels at its black, and with no light");
+}
+
+/// Lines and words at stops from middle grey.
+fn draw_stops(painter: &Painter, plot: Rect, color: Color32) {
     let [low, high] = histogram::STOPS;
     for stop in (low as i32..=high as i32).step_by(2) {
         let x = plot.min.x + (stop as f32 - low) / (high - low) * plot.width();
@@ -71,7 +87,6 @@ fn plot(ui: &mut Ui, histogram: &Histogram) {
             0 => "grey".to_owned(),
             stop => format!("{stop:+}"),
         };
-        let color = ui.visuals().text_color();
         painter.text(
             pos2(x, plot.max.y + 2.0),
             align,
@@ -80,17 +95,6 @@ fn plot(ui: &mut Ui, histogram: &Histogram) {
             color,
         );
     }
-    response.on_hover_text(
-        "Pixels of the scene's picture by stops from middle grey, as exposed; counts on a logarithmic scale. White line: \
-         luminance",
-    );
-    ui.label(format!(
-        "white {}, black {}, without light {}",
-        percent(histogram.white),
-        percent(histogram.black),
-        percent(histogram.unlit)
-    ))
-    .on_hover_text("Shares of the pixels with a channel at the display's white, with all channels at its black, and with no light");
 }
 
 fn percent(share: f64) -> String {

@@ -47,6 +47,24 @@ pub(super) fn show_list(ui: &Ui, work: &mut Workspace, picture: &Response) {
     work.measure.has_list = is_open;
 }
 
+/// The cells of a scratch; whether it was clicked.
+fn cells(ui: &mut Ui, number: usize, is_picked: bool, texts: ScratchTexts, height: f32) -> bool {
+    let size = |column: usize| [COLUMNS[column].1, height];
+    let button = Button::selectable(is_picked, number.to_string());
+    let is_clicked = ui.add_sized(size(0), button).clicked();
+    let cells = [
+        texts.width,
+        texts.depth,
+        texts.length,
+        texts.direction,
+        texts.place,
+    ];
+    for (i, text) in cells.into_iter().enumerate() {
+        ui.add_sized(size(i + 1), Label::new(text).truncate());
+    }
+    is_clicked
+}
+
 fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: usize) {
     let Some(laid) = built.scene.objects.get(object) else {
         return;
@@ -76,23 +94,13 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
         for number in shown {
             let scratch = &laid.scratches[own.start + number];
             let texts = ScratchTexts::new(laid, scratch);
-            ui.horizontal(|ui| {
-                let size = |column: usize| [COLUMNS[column].1, height];
-                let button = Button::selectable(picked == Some(number), number.to_string());
-                if ui.add_sized(size(0), button).clicked() {
-                    chosen = Some(own.start + number);
-                }
-                let cells = [
-                    texts.width,
-                    texts.depth,
-                    texts.length,
-                    texts.direction,
-                    texts.place,
-                ];
-                for (i, text) in cells.into_iter().enumerate() {
-                    ui.add_sized(size(i + 1), Label::new(text).truncate());
-                }
-            });
+            let is_picked = picked == Some(number);
+            if ui
+                .horizontal(|ui| cells(ui, number, is_picked, texts, height))
+                .inner
+            {
+                chosen = Some(own.start + number);
+            }
         }
         chosen
     };

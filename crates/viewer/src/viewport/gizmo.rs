@@ -12,7 +12,9 @@ mod motion;
 
 use std::sync::Arc;
 
-use egui::{Color32, CursorIcon, PointerButton, Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo};
+use egui::{
+    Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo,
+};
 use hairline_document::Description;
 use hairline_editor::{DragKey, Selection};
 
@@ -123,29 +125,41 @@ impl Gizmo {
         }
         let held = self.grab.as_ref().map(|grab| grab.handle);
         self.hovered = held.or(hovered);
-        let active = self.hovered;
-        if let Some(handle) = active {
+        if let Some(handle) = self.hovered {
             ui.set_cursor_icon(match (handle, held.is_some()) {
                 (Handle::Size, _) => CursorIcon::ResizeNeSw,
                 (_, true) => CursorIcon::Grabbing,
                 (_, false) => CursorIcon::Grab,
             });
         }
+        self.draw(&painter, work, selection, &lens, pointer);
+    }
+
+    /// Draws the handles, and words about a drag.
+    fn draw(
+        &self,
+        painter: &Painter,
+        work: &Workspace,
+        selection: Selection,
+        lens: &Lens,
+        pointer: Option<Pos2>,
+    ) {
+        let held = self.grab.as_ref().map(|grab| grab.handle);
         // The body as the drag has left it: one pass later is one pass too late.
         let description = work.document.description();
         if let Some(body) = Body::from_selection(description, selection)
-            && let Some(mut placed) = handles::place(&body, &lens)
+            && let Some(mut placed) = handles::place(&body, lens)
         {
             let size = placed.iter_mut().find(|placed| Some(placed.handle) == held);
             if let (Some(size), Some(pos), Some(Handle::Size)) = (size, pointer, held) {
                 size.knob = pos;
             }
-            draw_handles(&painter, &placed, active, held);
+            draw_handles(painter, &placed, self.hovered, held);
         }
         if let (Some(grab), Some(pos)) = (&self.grab, pointer)
             && let Some(words) = grab.motion.and_then(|motion| motion.words(grab.handle))
         {
-            draw_words(&painter, pos, &words, Color32::WHITE);
+            draw_words(painter, pos, &words, Color32::WHITE);
         }
     }
 

@@ -202,9 +202,9 @@ impl LineField {
             self.search = None;
             self.lines = lines(&self.marks, built, &lens, deadline);
         }
-        let Some(layer) = &self.layer else {
+        if self.layer.is_none() {
             return true;
-        };
+        }
         if now_s - self.moved_s < REST_S {
             return false;
         }
@@ -212,8 +212,15 @@ impl LineField {
             self.marks.clear();
             self.lines.clear();
         }
+        self.fill(built, &lens, area, deadline)
+    }
+
+    /// Marks scratches in squares that have none yet, for as long as a pass may take; returns whether there is nothing left to do.
+    fn fill(&mut self, built: &Built, lens: &Lens, area: &Area, deadline: Instant) -> bool {
+        let Some(layer) = &self.layer else {
+            return true;
+        };
         let search = self.search.get_or_insert_with(|| Search::new(area));
-        // Scratches in squares that have none yet, for as long as a pass may take.
         while search.tried < MOST_TRIES && self.marks.len() < MOST && layer.count > 0 {
             let number = search.tried;
             search.tried += 1;
@@ -228,8 +235,8 @@ impl LineField {
                 continue;
             };
             if !search.taken[cell]
-                && pick::is_seen(built, &lens, mark.point_m, mark.normal)
-                && let Some(line) = mark.line(&lens)
+                && pick::is_seen(built, lens, mark.point_m, mark.normal)
+                && let Some(line) = mark.line(lens)
             {
                 search.taken[cell] = true;
                 self.marks.push(mark);

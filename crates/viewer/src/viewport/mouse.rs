@@ -16,6 +16,22 @@ use super::{Area, Viewport, gizmo, measure, pick, place};
 /// A notch of a wheel is this many points in egui.
 const POINTS_A_NOTCH: f64 = 50.0;
 
+/// Pans the view, or orbits it.
+fn move_view(work: &mut Workspace, pans: bool, moved: DVec2, area: &Area) {
+    let size = area.size();
+    if pans {
+        let key = DragKey::from_name("pan");
+        work.move_view("Pan", Some(key), |camera| {
+            navigate::pan(camera, moved, size)
+        });
+    } else {
+        let key = DragKey::from_name("orbit");
+        work.move_view("Orbit", Some(key), |camera| {
+            navigate::orbit(camera, moved, size)
+        });
+    }
+}
+
 impl Viewport {
     /// Handles the mouse in the picture.
     pub fn interact(
@@ -30,7 +46,6 @@ impl Viewport {
         let shift = ui.input(|input| input.modifiers.shift);
         let is_brush = matches!(tool, Tool::Brush | Tool::Eraser);
         let alt = ui.input(|input| input.modifiers.alt);
-        let size = area.size();
         let delta = response.drag_delta();
         let moved = DVec2::new(delta.x.into(), delta.y.into());
 
@@ -66,16 +81,8 @@ impl Viewport {
         self.stroke.interact(ui, work, area, response, hand);
         let is_in_hand = draws_region && !alt && !is_shielded && fingers.is_none();
         self.drag_region(work, area, response, is_in_hand);
-        if pans && moved != DVec2::ZERO {
-            let key = DragKey::from_name("pan");
-            work.move_view("Pan", Some(key), |camera| {
-                navigate::pan(camera, moved, size)
-            });
-        } else if orbits && moved != DVec2::ZERO {
-            let key = DragKey::from_name("orbit");
-            work.move_view("Orbit", Some(key), |camera| {
-                navigate::orbit(camera, moved, size)
-            });
+        if (pans || orbits) && moved != DVec2::ZERO {
+            move_view(work, pans, moved, area);
         }
         self.wheel(ui, work, area, response);
         self.take_presets(ui, work, area, response);

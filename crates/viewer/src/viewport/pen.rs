@@ -7,9 +7,10 @@ use hairline_editor::{DragKey, Selection, pen};
 use hairline_scene::Segment;
 
 use super::lens::{Lens, share_of_nearest};
+use super::pick::Picked;
 use super::{Area, ink, pick};
 use crate::progressive::Built;
-use crate::tools::{BEGIN_LINE, Tool};
+use crate::tools::{BEGIN_LINE, LonePoint, Tool};
 use crate::workspace::Workspace;
 
 /// No more scratches of a layer are drawn over the picture.
@@ -253,9 +254,19 @@ impl PenTool {
             self.chosen = Some((layer, point));
             return;
         }
+        self.put_point(work, points.map(|it| it.object), begun, &hit);
+    }
+
+    /// Adds the point of a click to the line that is open, or begins one. `object` is that of the selected line.
+    fn put_point(
+        &mut self,
+        work: &mut Workspace,
+        object: Option<usize>,
+        begun: Option<LonePoint>,
+        hit: &Picked,
+    ) {
         match (self.open, begun) {
             (Some(layer), _) => {
-                let object = points.map(|it| it.object);
                 if object != Some(hit.object) {
                     let text = "The line is on another object: Enter or a click on its last point ends it.";
                     work.notices.note("pen", text);

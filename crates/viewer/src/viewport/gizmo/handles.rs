@@ -90,23 +90,9 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
             placed.extend(ring(i, center_m, to_eye, m_per_point, lens));
         }
     }
-    let mut directions: Vec<Vec2> = Vec::new();
-    let axes = body.moves.then_some(DVec3::AXES).into_iter().flatten();
-    for (i, axis) in axes.enumerate() {
-        let Some(tip) = lens.project(center_m + axis * (m_per_point * f64::from(ARROW))) else {
-            continue;
-        };
-        let arm = tip - middle;
-        if arm.length() < SHORTEST {
-            continue;
-        }
-        directions.push(arm.normalized());
-        placed.push(Placed {
-            handle: Handle::Axis(i),
-            line: vec![middle + arm.normalized() * GAP, tip],
-            knob: tip,
-        });
-    }
+    let arrows = arrows(body, lens, middle, m_per_point);
+    let directions: Vec<Vec2> = arrows.iter().map(|(direction, _)| *direction).collect();
+    placed.extend(arrows.into_iter().map(|(_, arrow)| arrow));
     if body.resizes {
         let direction = freest(&directions);
         let knob = middle + direction * SIZE;
@@ -144,6 +130,25 @@ pub(super) fn place(body: &Body, lens: &Lens) -> Option<Vec<Placed>> {
     }
     clear_knobs_of_rings(&mut placed);
     Some(placed)
+}
+
+/// Handles along the axes that are long enough on the screen, with their directions there.
+fn arrows(body: &Body, lens: &Lens, middle: Pos2, m_per_point: f64) -> Vec<(Vec2, Placed)> {
+    let axes = body.moves.then_some(DVec3::AXES).into_iter().flatten();
+    let arrow = |(i, axis): (usize, DVec3)| {
+        let tip = lens.project(body.center_m + axis * (m_per_point * f64::from(ARROW)))?;
+        let arm = tip - middle;
+        if arm.length() < SHORTEST {
+            return None;
+        }
+        let placed = Placed {
+            handle: Handle::Axis(i),
+            line: vec![middle + arm.normalized() * GAP, tip],
+            knob: tip,
+        };
+        Some((arm.normalized(), placed))
+    };
+    axes.enumerate().filter_map(arrow).collect()
 }
 
 /// Moves apart the positions of rings' handles for screen readers, so that none lies on another handle. With a
