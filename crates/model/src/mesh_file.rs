@@ -7,6 +7,7 @@
 mod accessor;
 mod anisotropy;
 mod attributes;
+mod baking;
 mod cameras;
 mod channels;
 mod coat;
@@ -47,12 +48,12 @@ use hairline_image::FilePath;
 
 pub use crate::flaw::Flaw;
 use crate::flaw::RIGHT;
-use crate::mesh::{Mesh, NodeTriangles};
+use crate::mesh::Mesh;
 use crate::other_formats::{OtherFormat, Translated};
 use crate::packed;
 use crate::reading::{self, FileKind};
-use crate::surface::Surface;
 use crate::text::shown;
+use baking::Baking;
 pub use cameras::FileCamera;
 pub(crate) use head::whole_text;
 pub use head::{camera_names, counts, left_out, names};
@@ -69,9 +70,6 @@ use source::Buffers;
 pub(crate) use source::resource;
 use stock::FILE_SHARE;
 pub use stock::FileContents;
-
-/// Instances of meshes that one file may place; each is baked.
-const MOST_TRIANGLES: usize = 1 << 28;
 
 /// Reads a file's triangles into world space. Without `material`, an index into the stock, the file's own are added there.
 pub fn read(
@@ -114,67 +112,25 @@ pub fn read(
         Some(material) => Materials::One(material),
         None => Materials::own(&gltf.document, images, materials),
     };
-    let mut mesh = Mesh::default();
     let shapes = Shapes::new(&gltf.document, &buffers, placing.moment())?;
     let start = placing.start(&shapes, world_from_object)?;
-    let world_from_file = *world_from_object * start.object_from_file;
+    let mut baking = Baking {
+        world_from_file: *world_from_object * start.object_from_file,
+        mesh: Mesh::default(),
+        parts,
+        turned: 0,
+        missing_sets: BTreeMap::new(),
+    };
     *moved_from = start.moved_from;
     notes.extend(start.moved_from.map(notes::moved));
-    let mut turned = 0;
-    let mut missing_sets = BTreeMap::<u32, usize>::new();
-    let without_surface = shapes.visit(&mut |shape| {
-        if material.is_none() {
-            for set in &shape.rough.missing_sets {
-                *missing_sets.entry(*set).or_default() += 1;
-            }
-        }
-        let surface = shape.rough.finished(&shape.primitive, &mut turned);
-        let material = materials.index(&shape.primitive)?;
-        let first = mesh.triangles.len();
-        for file_from_place in &shape.places {
-            refuse_too_many(&mesh, &surface)?;
-            surface.bake(&(world_from_file * *file_from_place), material, &mut mesh);
-        }
-        parts.push(NodeTriangles {
-            nodes: shape.nodes.clone(),
-            triangles: first..mesh.triangles.len(),
-        });
-        Ok(())
-    })?;
-    materials.forget_whole(first_own, &mesh);
-    notes.extend(missing_sets.into_iter().map(notes::missing_set));
-    notes.extend((turned > 0).then(|| notes::turned(turned)));
-    refuse_no_surface(&mesh, without_surface)?;
-    Ok(mesh)
-}
-
-fn refuse_too_many(mesh: &Mesh, surface: &Surface) -> Result<(), Flaw> {
-    let so_far = mesh.triangles.len().max(mesh.positions_m.len());
-    let more = surface.triangles.len().max(surface.vertices.len());
-    match so_far + more > MOST_TRIANGLES {
-        true => Err(Flaw::new(
-            "it places more than 268 million triangles",
-            "must have fewer",
-        )),
-        false => Ok(()),
+    let without_surface = shapes.visit(&mut |shape| baking.bake(shape, &mut materials))?;
+    materials.forget_whole(first_own, &baking.mesh);
+    if material.is_none() {
+        let missing_sets = std::mem::take(&mut baking.missing_sets);
+        notes.extend(missing_sets.into_iter().map(notes::missing_set));
     }
-}
-
-fn refuse_no_surface(mesh: &Mesh, without_surface: usize) -> Result<(), Flaw> {
-    if mesh.triangles.is_empty() && without_surface > 0 {
-        let found = "it has points and lines, and no triangles";
-        return Err(Flaw::new(
-            found,
-            "must have a surface: triangles that span an area",
-        ));
-    }
-    if mesh.positions_m.iter().any(|p| !p.is_finite()) {
-        return Err(Flaw::new(
-            "it has vertices beyond the range of single precision",
-            "must be of a finite size",
-        ));
-    }
-    Ok(())
+    notes.extend((baking.turned > 0).then(|| notes::turned(baking.turned)));
+    baking.finished(without_surface)
 }
 
 /// A camera of a file, in world space.
