@@ -49,24 +49,7 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     ground.line(ui, work);
 
     section(ui, "Lights", |ui| add_light(ui, work));
-    let of_studio = Switched {
-        selection: Selection::Studio,
-        name: "Studio lights",
-        is_shown: !description.studio.hidden,
-        what: "the studio",
-        tooltip: "Whether soft boxes, a lamp and a dim room light all objects",
-    };
-    of_studio.line(ui, work);
-    for (i, light) in description.lights.iter().enumerate() {
-        let shining = Switched {
-            selection: Selection::Light(i),
-            name: &numbered(lights::title(light), &description, i),
-            is_shown: !light.hidden,
-            what: &format!("light {}", i + 1),
-            tooltip: "Whether it shines",
-        };
-        shining.line(ui, work);
-    }
+    light_lines(ui, work, &description);
 
     section(ui, "Materials", |ui| add_material(ui, work));
     for (i, material) in description.materials.iter().enumerate() {
@@ -78,6 +61,27 @@ pub(super) fn rows(ui: &mut Ui, work: &mut Workspace) {
     });
     for (i, look) in description.looks.iter().enumerate() {
         line(ui, work, Selection::Look(i), &look.name, true);
+    }
+}
+
+fn light_lines(ui: &mut Ui, work: &mut Workspace, description: &Description) {
+    let of_studio = Switched {
+        selection: Selection::Studio,
+        name: "Studio lights",
+        is_shown: !description.studio.hidden,
+        what: "the studio",
+        tooltip: "Whether soft boxes, a lamp and a dim room light all objects",
+    };
+    of_studio.line(ui, work);
+    for (i, light) in description.lights.iter().enumerate() {
+        let shining = Switched {
+            selection: Selection::Light(i),
+            name: &numbered(lights::title(light), description, i),
+            is_shown: !light.hidden,
+            what: &format!("light {}", i + 1),
+            tooltip: "Whether it shines",
+        };
+        shining.line(ui, work);
     }
 }
 

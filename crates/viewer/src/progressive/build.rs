@@ -130,10 +130,7 @@ impl ViewBuilder {
             self.scenes = scenes.clone();
         }
         let scene_done = Instant::now();
-        let triangles = match last {
-            Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
-            _ => Arc::new(TriangleIndex::build(&scene)),
-        };
+        let triangles = triangles(&scene, last);
         let scratches = Arc::new(ScratchIndex::without_trees(&scene));
         let segments: usize = scene.objects.iter().map(|o| o.segments.len()).sum();
         let index_done = Instant::now();
@@ -184,10 +181,7 @@ impl ViewBuilder {
         };
         let scene_done = Instant::now();
         let last = self.last.as_ref();
-        let triangles = match last {
-            Some(last) if has_same_meshes(&last.scene, &scene) => Arc::clone(&last.triangles),
-            _ => Arc::new(TriangleIndex::build(&scene)),
-        };
+        let triangles = triangles(&scene, last);
         let Some(scratches) = scratches(&scene, view, last, cancelled) else {
             return Ok(None);
         };
@@ -224,6 +218,13 @@ impl ViewBuilder {
                 tables: index_done.elapsed(),
             },
         }))
+    }
+}
+
+fn triangles(scene: &Scene, last: Option<&LastBuild>) -> Arc<TriangleIndex> {
+    match last {
+        Some(last) if has_same_meshes(&last.scene, scene) => Arc::clone(&last.triangles),
+        _ => Arc::new(TriangleIndex::build(scene)),
     }
 }
 

@@ -13,7 +13,8 @@ mod motion;
 use std::sync::Arc;
 
 use egui::{
-    Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Role, Sense, Ui, Vec2, WidgetInfo,
+    Color32, CursorIcon, Id, Painter, PointerButton, Pos2, Rect, Response, Role, Sense, Ui, Vec2,
+    WidgetInfo,
 };
 use hairline_document::Description;
 use hairline_editor::{DragKey, Selection};
@@ -93,18 +94,9 @@ impl Gizmo {
         let mut is_held = false;
         for Placed { handle, knob, .. } in &placed {
             let is_near = Some(*handle) == near;
-            // The mouse meets a line wherever it is; those who see no line find its knob.
-            let (middle, size) = match pointer.filter(|_| is_near) {
-                Some(pos) => (pos, REACH),
-                None => (*knob, 0.7 * REACH),
-            };
-            let rect = Rect::from_center_size(middle, Vec2::splat(size));
-            let id = ui.scope_id().with(("gizmo", selection, *handle));
-            let response = ui.interact(rect, id, Sense::DRAG);
             let name = handle.name(&body);
-            response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name.as_str()));
-            ui.ctx()
-                .accesskit_node_builder(response.id, |node| node.set_label(name.as_str()));
+            let id = ui.scope_id().with(("gizmo", selection, *handle));
+            let (middle, response) = meet(ui, id, *knob, pointer.filter(|_| is_near), &name);
             if response.hovered() || is_near {
                 hovered = Some(*handle);
             }
@@ -213,6 +205,21 @@ impl Gizmo {
         }
         true
     }
+}
+
+/// The place where a handle meets the mouse, and what it meets it with. `near` is the pointer, if no handle is nearer.
+fn meet(ui: &Ui, id: Id, knob: Pos2, near: Option<Pos2>, name: &str) -> (Pos2, Response) {
+    // The mouse meets a line wherever it is; those who see no line find its knob.
+    let (middle, size) = match near {
+        Some(pos) => (pos, REACH),
+        None => (knob, 0.7 * REACH),
+    };
+    let rect = Rect::from_center_size(middle, Vec2::splat(size));
+    let response = ui.interact(rect, id, Sense::DRAG);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    ui.ctx()
+        .accesskit_node_builder(response.id, |node| node.set_label(name));
+    (middle, response)
 }
 
 /// Whether a part of it can be seen and reached.
