@@ -2,10 +2,11 @@
 //! groove_ground.wgsl.
 
 use glam::{DVec2, DVec3};
+use hairline_model::mesh::Mesh;
+use hairline_model::texture::Texture;
 use hairline_model::texture_lookup::texture_footprint;
 
 use crate::picture_lie::{PictureLie, three_sides};
-use crate::scene::{Mesh, Texture};
 
 /// A picture on the surface of a grating.
 #[derive(Clone, Copy, Debug, PartialEq)]
