@@ -14,6 +14,7 @@
 
 mod drawn;
 mod lines;
+mod motion;
 mod outline;
 mod polygon;
 mod sphere;
@@ -21,9 +22,10 @@ mod tube;
 
 pub use drawn::DrawnChord;
 pub use lines::{
-    Along, BAND_REACH_STD, BAND_STD_MAX, BandLines, BandMotion, BandPlace, BandStds, MovedBand,
-    band_is_whole, band_lines, band_moves, band_stds, band_stds_seen_by, moved_band,
+    BAND_REACH_STD, BAND_STD_MAX, BandLines, BandStds, band_is_whole, band_lines, band_stds,
+    band_stds_seen_by,
 };
+pub use motion::{Along, BandMotion, BandPlace, MovedBand, band_moves, moved_band};
 pub use outline::{Outline, OutlineEdge, OutlineRoots};
 pub use polygon::{PolygonView, polygon_facing};
 pub use sphere::{Cap, sphere_band_extent, sphere_cap, sphere_chord};

@@ -348,7 +348,7 @@ fn draw_cell(point: LitPoint, seen: SeenScratch, cells: u32, map_from_surface: m
 
 // Draws the place under the pixel of a part that sees the scratch: standard deviations of the pixel's filter to the right and down. Of what is
 // normal over the pixel, the distance across the scratch is known, and the place along it lies between its ends. `normals` are three standard normal
-// numbers. Twin: BandPlace::drawn of optics/src/band/lines.rs.
+// numbers. Twin: BandPlace::drawn of optics/src/band/motion.rs.
 fn place_drawn(point: LitPoint, seen: SeenScratch, start_um: vec2f, end_um: vec2f, blur_um: f32, normals: vec3f, u: f32) -> vec2f {
     let across = seen.across_um;
     let slopes = across / seen.variance_sq_um;
