@@ -16,6 +16,7 @@ mod places;
 mod point;
 mod row_spread;
 mod scratch_light;
+mod segment_view;
 
 use crate::counts::Counts;
 use crate::prepared::Prepared;
@@ -28,10 +29,11 @@ use hairline_optics::mask::ScratchSums;
 use hairline_optics::table::ScratchTable;
 use hairline_optics::vectors::with_widest;
 use hairline_scene::Environment;
-use lanes::{GROUPS, Group, LANES, Line, SegmentView};
+use lanes::{GROUPS, Group, Line};
 use light_bounds::LightBounds;
 use places::Places;
 use scratch_light::scratch_energy;
+use segment_view::{LANES, SegmentView};
 
 pub(crate) use course::Course;
 pub(crate) use drawn_light::{Choice, DrawnLight};

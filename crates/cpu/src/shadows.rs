@@ -26,6 +26,7 @@ use std::f64::consts::PI;
 mod base;
 mod lobes;
 mod scratches;
+mod sources;
 
 /// Rays to the lights of a scene.
 pub(crate) struct Shadows<'a> {

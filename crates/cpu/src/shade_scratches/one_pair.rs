@@ -1,10 +1,11 @@
 //! One pair of a scratch and a source that stands for all that a point sees: where a ray met the point, one more ray will tell of its light anyway.
 //! The pair is drawn by a cheap bound, and only its light is computed.
 
-use super::lanes::{Group, SegmentView};
+use super::lanes::Group;
 use super::picks::Picks;
 use super::point::{Frame, ScratchPoint};
 use super::scratch_light::{ScratchLight, scratch_energy};
+use super::segment_view::SegmentView;
 use crate::gather::gather;
 use crate::prepared::Prepared;
 use crate::sampling::luminance;

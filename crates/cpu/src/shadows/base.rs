@@ -2,47 +2,16 @@
 //! multiple importance sampling (E. Veach, 1997).
 
 use super::lobes::Lobes;
+use super::sources::Source;
 use super::{HitBuffers, MetObject, Purpose, RayEnd, ShadowPoint, Shadows, normals};
-use crate::base_layer::transformed_sphere;
-use crate::light_view::LightViews;
 use crate::pixel_base::PixelBase;
 use crate::sampling::lights::LightHit;
 use crate::sampling::luminance;
-use crate::shade_base::{Base, BaseRadiance};
-use crate::shade_scratches::Choice;
+use crate::shade_base::BaseRadiance;
 use crate::surface::ray_start::RayStart;
 use crate::traced::{BaseLight, LayerRays};
 use glam::{DVec2, DVec3};
 use hairline_index::Hit;
-use std::f64::consts::PI;
-
-/// A source of light on the base.
-#[derive(Clone, Copy)]
-struct Source {
-    /// Index of the light; none for the environment.
-    light: Option<u32>,
-    /// Light of the base where nothing hides the source.
-    open: BaseRadiance,
-    /// One over the probability with which it was drawn.
-    per_chance: f64,
-}
-
-impl Source {
-    /// Luminance of its light.
-    fn sent(&self) -> f64 {
-        luminance(self.open.specular + self.open.diffuse)
-    }
-
-    /// The probability with which a ray to it is cast.
-    fn cast_share(&self, candidate: &Candidate) -> f64 {
-        let all = self.sent();
-        if all > 0.0 {
-            (candidate.sent() / (FAINT * all)).min(1.0)
-        } else {
-            1.0
-        }
-    }
-}
 
 /// Rays of both layers of the base.
 #[derive(Default)]
@@ -93,6 +62,16 @@ struct Candidate {
 }
 
 impl Candidate {
+    /// The probability with which a ray to it is cast.
+    fn cast_share(&self, source: &Source) -> f64 {
+        let all = source.sent();
+        if all > 0.0 {
+            (self.sent() / (FAINT * all)).min(1.0)
+        } else {
+            1.0
+        }
+    }
+
     fn sent(&self) -> f64 {
         luminance(self.weight.specular + self.weight.diffuse).max(0.0)
     }
@@ -149,67 +128,6 @@ impl<'a> Shadows<'a> {
             specular: rays.specular.light(probe),
             diffuse: rays.diffuse.light(probe),
         }
-    }
-
-    /// The sources that light the base.
-    fn sources(&self, base: &PixelBase) -> Vec<Source> {
-        let lights = base.lights();
-        let by_light = |light| (Some(light), base.by_light(light, transformed_sphere));
-        let environment = self.prepared.scene.environment.as_ref();
-        let around = environment.map(|environment| (None, base.by_environment(environment)));
-        (lights.into_iter().map(by_light).chain(around))
-            .map(|(light, open)| Source {
-                light,
-                open,
-                per_chance: 1.0,
-            })
-            .filter(|it| it.open.specular != DVec3::ZERO || it.open.diffuse != DVec3::ZERO)
-            .collect()
-    }
-
-    /// Draws one source that stands for all, by a cheap bound of its light.
-    fn one_source(&self, at: &ShadowPoint, base: &Base, lobes: &Lobes) -> Option<Source> {
-        let environment = self.prepared.scene.environment.as_ref();
-        let around = environment.map(|environment| {
-            let albedo = base.albedo();
-            let irradiance = environment.irradiance(at.point.normal);
-            luminance((albedo.specular + albedo.diffuse) * irradiance) / PI
-        });
-        let [pick, ..] = at.random(Purpose::Source, 0);
-        let mut choice = Choice::new(pick);
-        let mut taken = None;
-        for light in at.views.on_base() {
-            let views = at.views;
-            let seen = |views: &LightViews| Some(lobes.likely(views.light(light)?, views));
-            let bound = seen(views).or_else(|| seen(views.under_coat()));
-            let bound = bound.unwrap_or(0.0);
-            if choice.offer(DVec3::splat(bound)) {
-                taken = Some((Some(light), bound));
-            }
-        }
-        if let Some(around) = around
-            && choice.offer(DVec3::splat(around))
-        {
-            taken = Some((None, around));
-        }
-        let (light, bound) = taken?;
-        let per_chance = choice.total() / bound;
-        let Some(light) = light else {
-            // One ray cannot tell whether the bright half of an environment is hidden or the dark one: without a closed form the ray brings the light
-            // that it meets.
-            return Some(Source {
-                light: None,
-                open: BaseRadiance::default(),
-                per_chance: per_chance * at.point.open,
-            });
-        };
-        let open = base.by_light(light, at.views, transformed_sphere);
-        let is_lit = open.specular != DVec3::ZERO || open.diffuse != DVec3::ZERO;
-        is_lit.then_some(Source {
-            light: Some(light),
-            open,
-            per_chance,
-        })
     }
 
     fn base_round(
@@ -311,7 +229,7 @@ impl<'a> Shadows<'a> {
                     add(&candidate, 1.0, is_seen);
                 }
                 if let Some(candidate) = to_source {
-                    let share = source.cast_share(&candidate);
+                    let share = candidate.cast_share(source);
                     if chance < share {
                         add(&candidate, 1.0 / share, sees(&candidate));
                     }
