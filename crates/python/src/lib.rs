@@ -3,6 +3,7 @@
 
 mod arrays;
 mod bsdf;
+mod built;
 mod compare;
 mod editing;
 mod errors;
@@ -57,7 +58,7 @@ fn _hairline(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<labels::Labels>()?;
     module.add_class::<scene::Builder>()?;
     module.add_class::<scene_bsdf::SceneBsdf>()?;
-    module.add_class::<scene::Built>()?;
+    module.add_class::<built::Built>()?;
     module.add_function(wrap_pyfunction!(set_threads, module)?)?;
     module.add_function(wrap_pyfunction!(threads, module)?)?;
     module.add_function(wrap_pyfunction!(scene::read, module)?)?;
