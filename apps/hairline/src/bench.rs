@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use hairline_console::{print, tell};
 use hairline_image::output::{check_writable, write_atomically};
-use hairline_scene::Object;
+use hairline_scene::{Object, Scene};
 
 use crate::cli::{self, BenchPart};
 use crate::progress::Progress;
@@ -107,17 +107,7 @@ fn measure(
     };
     let progress = Progress::start("measuring");
     if let Some(path) = &arguments.scene {
-        let overrides = Overrides {
-            size_px: arguments.size,
-            ..Overrides::default()
-        };
-        let outputs = [&arguments.json, &arguments.output];
-        let outputs: Vec<&Path> = outputs
-            .into_iter()
-            .flatten()
-            .map(PathBuf::as_path)
-            .collect();
-        let scene = scene_file::load(Some(path.as_path()), &overrides, &outputs)?.scene;
+        let scene = load(arguments, path)?;
         figures.scene = file_name(path);
         figures.size_px = scene.render.size_px;
         let of = |object: &Object| object.scratches.len() as u32;
@@ -147,6 +137,21 @@ fn measure(
         }
     }
     Ok(figures)
+}
+
+/// Loads the scene that is to be measured.
+fn load(arguments: &cli::Bench, path: &Path) -> Result<Scene, Failure> {
+    let overrides = Overrides {
+        size_px: arguments.size,
+        ..Overrides::default()
+    };
+    let outputs = [&arguments.json, &arguments.output];
+    let outputs: Vec<&Path> = outputs
+        .into_iter()
+        .flatten()
+        .map(PathBuf::as_path)
+        .collect();
+    Ok(scene_file::load(Some(path), &overrides, &outputs)?.scene)
 }
 
 fn file_name(path: &Path) -> String {

@@ -63,15 +63,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         ));
         return Ok(());
     }
-    let from = match (count, exists) {
-        (Some(count), _) => format!("going on from {}", listed(count)),
-        (None, true) if output.format() == Format::Exr => {
-            format!(
-                "from the start, in place of the {name} that is there (--resume goes on from it)"
-            )
-        }
-        (None, _) => "from the start".to_owned(),
-    };
+    let from = start(count, exists, &output);
     // Work from here on should not be lost by Ctrl-C.
     let interrupt = Interrupt::listen().map_err(cannot_listen)?;
     tell(format_args!(
@@ -101,12 +93,31 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     )?;
     drop(terminal);
 
+    ended(end, Count::of(&image), &output)
+}
+
+/// In words, where the sampling starts.
+fn start(count: Option<Count>, exists: bool, output: &Output) -> String {
+    let name = output.path().display();
+    match (count, exists) {
+        (Some(count), _) => format!("going on from {}", listed(count)),
+        (None, true) if output.format() == Format::Exr => {
+            format!(
+                "from the start, in place of the {name} that is there (--resume goes on from it)"
+            )
+        }
+        (None, _) => "from the start".to_owned(),
+    }
+}
+
+/// Tells of an end before the last sample.
+fn ended(end: End, count: Count, output: &Output) -> Result<(), Failure> {
+    let name = output.path().display();
     let reason = match end {
         End::Complete => return Ok(()),
         End::TimeUp => "the time is up",
         End::Interrupted => "interrupted",
     };
-    let count = Count::of(&image);
     if count.mean == 0.0 {
         return Err(Failure::Work(anyhow!(
             "{reason} before the first samples were done; there is nothing to write"

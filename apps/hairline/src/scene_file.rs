@@ -11,7 +11,7 @@ use hairline_document::estimate::Estimate;
 use hairline_document::inputs::{Input, is_same_file};
 use hairline_document::wear::{Wear, set_wear};
 use hairline_document::{Loader, SceneBuilder, Stage, reading, subject};
-use hairline_image::{Finish, ToneMap};
+use hairline_image::{Backdrop, Finish, ToneMap};
 use hairline_memory::budget_bytes;
 use hairline_scene::Scene;
 
@@ -146,30 +146,8 @@ pub fn load(
     let is_model = source.model.is_some();
     let mut description = source.description()?;
     cut_out(&mut description, overrides, is_model);
-    let inputs = description.inputs(&source.folder);
-    refuse_inputs(outputs, path, &inputs)?;
-    if let Some(size_px) = overrides.size_px {
-        description.render.size_px = size_px;
-    }
-    if let Some(exposure_ev) = overrides.exposure_ev {
-        description.camera.exposure_ev = exposure_ev;
-    }
-    if let Some(tone_map) = overrides.tone_map {
-        description.render.tone_map = tone_map;
-    }
-    if let Some(time_s) = overrides.time_s {
-        set_time(&mut description, time_s);
-    }
-    let of_file = description.camera.of_file.clone();
-    if let Some(camera) = overrides.camera.or(of_file.as_deref()) {
-        let taken = description.see_by(camera, &source.folder);
-        taken.map_err(|error| error.in_scene_file(&source.text, &source.name))?;
-    }
-    for scratches in &mut description.scratches {
-        if let Some(seed) = scratches.layer.seed_mut() {
-            *seed = seed.wrapping_add(overrides.scratch_seed);
-        }
-    }
+    refuse_inputs(outputs, path, &description.inputs(&source.folder))?;
+    change(&mut description, overrides, &source)?;
 
     // The scene is checked for its own memory where it is built.
     let mut picture = Estimate::default();
@@ -188,19 +166,11 @@ pub fn load(
         cancelled: &|| overrides.interrupt.is_some_and(Interrupt::is_asked),
         ..Loader::default()
     };
-    let wrong = |error: hairline_document::Error| error.in_scene_file(&source.text, &source.name);
+    let wrong = |error| source.wrong(error);
     let mut builder = SceneBuilder::new();
     let built = builder.build(&loader, &description, &source.folder);
     let mut scene = built.map_err(wrong)?;
-    let backdrop = description.backdrop(&source.folder);
-    let backdrop = backdrop.map_err(|error| match overrides.behind {
-        Some(behind) => Failure::Input(anyhow!(
-            "--behind {}: {}; must be a .png, .jpg or .webp, relative to the current folder",
-            behind.display(),
-            error.found()
-        )),
-        None => wrong(error).into(),
-    })?;
+    let backdrop = backdrop(&description, overrides, &source)?;
     let finish = Finish {
         is_deep: description.render.png_bits == 16,
         behind: backdrop.map(Arc::new),
@@ -209,18 +179,88 @@ pub fn load(
         give_wear(&mut description, &scene, wear);
         scene = (builder.build(&loader, &description, &source.folder)).map_err(wrong)?;
     }
-    if let Some(wanted) = overrides.highlight {
-        highlight::place(wanted, &mut description, &scene)?;
-    }
-    if overrides.is_lit_for_scratches {
-        description.light_for_scratches(&scene);
-    }
-    if overrides.highlight.is_some() || overrides.is_lit_for_scratches {
+    if light(&mut description, &scene, overrides)? {
         // Only the lights are built again.
         let built = builder.build(&loader, &description, &source.folder);
         scene = built.map_err(wrong)?;
     }
     drop(progress);
+    tell_notes(&scene);
+    Ok(Loaded {
+        scene,
+        description,
+        folder: source.folder,
+        finish,
+        text: source.text,
+        name: source.name,
+        builder,
+    })
+}
+
+/// Changes a description by what can be told without its scene.
+fn change(
+    description: &mut Description,
+    overrides: &Overrides<'_>,
+    source: &Source,
+) -> Result<(), Failure> {
+    if let Some(size_px) = overrides.size_px {
+        description.render.size_px = size_px;
+    }
+    if let Some(exposure_ev) = overrides.exposure_ev {
+        description.camera.exposure_ev = exposure_ev;
+    }
+    if let Some(tone_map) = overrides.tone_map {
+        description.render.tone_map = tone_map;
+    }
+    if let Some(time_s) = overrides.time_s {
+        set_time(description, time_s);
+    }
+    let of_file = description.camera.of_file.clone();
+    if let Some(camera) = overrides.camera.or(of_file.as_deref()) {
+        let taken = description.see_by(camera, &source.folder);
+        taken.map_err(|error| source.wrong(error))?;
+    }
+    for scratches in &mut description.scratches {
+        if let Some(seed) = scratches.layer.seed_mut() {
+            *seed = seed.wrapping_add(overrides.scratch_seed);
+        }
+    }
+    Ok(())
+}
+
+/// Places and replaces lights; whether any changed.
+fn light(
+    description: &mut Description,
+    scene: &Scene,
+    overrides: &Overrides<'_>,
+) -> Result<bool, Failure> {
+    if let Some(wanted) = overrides.highlight {
+        highlight::place(wanted, description, scene)?;
+    }
+    if overrides.is_lit_for_scratches {
+        description.light_for_scratches(scene);
+    }
+    Ok(overrides.highlight.is_some() || overrides.is_lit_for_scratches)
+}
+
+/// The picture that lies behind a transparent one.
+fn backdrop(
+    description: &Description,
+    overrides: &Overrides<'_>,
+    source: &Source,
+) -> Result<Option<Backdrop>, Failure> {
+    let backdrop = description.backdrop(&source.folder);
+    backdrop.map_err(|error| match overrides.behind {
+        Some(behind) => Failure::Input(anyhow!(
+            "--behind {}: {}; must be a .png, .jpg or .webp, relative to the current folder",
+            behind.display(),
+            error.found()
+        )),
+        None => source.wrong(error).into(),
+    })
+}
+
+fn tell_notes(scene: &Scene) {
     for note in &scene.notes {
         tell(format_args!("note: {note}"));
     }
@@ -233,15 +273,6 @@ pub fn load(
             environment.repaired_texels()
         ));
     }
-    Ok(Loaded {
-        scene,
-        description,
-        folder: source.folder,
-        finish,
-        text: source.text,
-        name: source.name,
-        builder,
-    })
 }
 
 /// Refuses to write over a file that is to be read.
@@ -285,6 +316,11 @@ struct Source {
 }
 
 impl Source {
+    /// An error in the scene, with its place in the file.
+    fn wrong(&self, error: hairline_document::Error) -> hairline_document::Error {
+        error.in_scene_file(&self.text, &self.name)
+    }
+
     fn read(scene: Option<&Path>) -> Result<Self, Failure> {
         let Some(path) = scene else {
             return Ok(Self {

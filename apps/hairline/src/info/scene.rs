@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use hairline_console::print;
-use hairline_document::description::{self, LightKind};
+use hairline_document::description::{self, Description, LightKind};
 use hairline_document::estimate::{Estimate, scratches_bytes, textures_bytes};
 use hairline_document::text::shown;
 use hairline_memory::{available_bytes, in_words};
-use hairline_scene::{Light, LightShape};
+use hairline_scene::{Light, LightShape, Scene};
 use serde::Serialize;
 
 use crate::scene_file::{self, Loaded, Overrides};
@@ -179,39 +179,6 @@ fn contents(loaded: &Loaded) -> Contents {
     let Loaded {
         scene, description, ..
     } = loaded;
-    // A hidden object has no triangles.
-    let shown = scene.objects.iter();
-    let shown = shown.filter(|object| !object.mesh.triangles.is_empty());
-    let objects = shown.map(|object| {
-        let (least, most) = object.mesh.bounds_m();
-        Object {
-            name: object.name.clone(),
-            least_m: least.as_dvec3().into(),
-            most_m: most.as_dvec3().into(),
-            triangles: object.mesh.triangles.len(),
-            scratches: object.scratches.len(),
-            segments: object.segments.len(),
-        }
-    });
-    let layers = (0..).zip(&description.scratches).map(|(i, table)| {
-        let object = scene
-            .objects
-            .iter()
-            .find(|object| object.name == table.object);
-        let all = object.map_or(&[][..], |object| &object.scratches);
-        let own = all.iter().filter(|scratch| scratch.layer == i);
-        let (scratches, segments) = own.fold((0, 0), |(scratches, segments), scratch| {
-            (scratches + 1, segments + scratch.segments.len())
-        });
-        Layer {
-            name: table.name.clone(),
-            object: table.object.clone(),
-            pattern: table.layer.pattern_name().to_owned(),
-            scratches,
-            segments,
-            hidden: table.hidden,
-        }
-    });
     let gratings = description.gratings.iter().map(|grating| Grating {
         name: grating.name.clone(),
         object: grating.object.clone(),
@@ -247,8 +214,8 @@ fn contents(loaded: &Loaded) -> Contents {
     let laid = scratches_bytes(scratches, segments);
     Contents {
         size_px: scene.render.size_px,
-        objects: objects.collect(),
-        layers: layers.collect(),
+        objects: objects(scene),
+        layers: layers(scene, description),
         gratings: gratings.collect(),
         lights: lights.collect(),
         environment,
@@ -264,6 +231,47 @@ fn contents(loaded: &Loaded) -> Contents {
             available_bytes: available_bytes(),
         },
     }
+}
+
+fn objects(scene: &Scene) -> Vec<Object> {
+    // A hidden object has no triangles.
+    let shown = scene.objects.iter();
+    let shown = shown.filter(|object| !object.mesh.triangles.is_empty());
+    let objects = shown.map(|object| {
+        let (least, most) = object.mesh.bounds_m();
+        Object {
+            name: object.name.clone(),
+            least_m: least.as_dvec3().into(),
+            most_m: most.as_dvec3().into(),
+            triangles: object.mesh.triangles.len(),
+            scratches: object.scratches.len(),
+            segments: object.segments.len(),
+        }
+    });
+    objects.collect()
+}
+
+fn layers(scene: &Scene, description: &Description) -> Vec<Layer> {
+    let layers = (0..).zip(&description.scratches).map(|(i, table)| {
+        let object = scene
+            .objects
+            .iter()
+            .find(|object| object.name == table.object);
+        let all = object.map_or(&[][..], |object| &object.scratches);
+        let own = all.iter().filter(|scratch| scratch.layer == i);
+        let (scratches, segments) = own.fold((0, 0), |(scratches, segments), scratch| {
+            (scratches + 1, segments + scratch.segments.len())
+        });
+        Layer {
+            name: table.name.clone(),
+            object: table.object.clone(),
+            pattern: table.layer.pattern_name().to_owned(),
+            scratches,
+            segments,
+            hidden: table.hidden,
+        }
+    });
+    layers.collect()
 }
 
 fn left_out(loaded: &Loaded) -> Vec<LeftOut> {
@@ -305,21 +313,7 @@ fn elevation_deg(direction: DVec3, up: DVec3) -> f64 {
 fn write(contents: &Contents, out: &mut String) -> fmt::Result {
     let [width, height] = contents.size_px;
     writeln!(out, "picture: {width} x {height} pixels")?;
-    writeln!(out, "objects: {}", contents.objects.len())?;
-    for object in &contents.objects {
-        let size = [0, 1, 2].map(|axis| object.most_m[axis] - object.least_m[axis]);
-        writeln!(
-            out,
-            "  \"{}\": {}, from {} to {}; {} triangles, {} scratches in {} segments",
-            shown(&object.name),
-            size.map(length).join(" x "),
-            point(object.least_m),
-            point(object.most_m),
-            object.triangles,
-            object.scratches,
-            object.segments
-        )?;
-    }
+    write_objects(&contents.objects, out)?;
     writeln!(out, "layers of scratches: {}", contents.layers.len())?;
     lines(out, &contents.layers, |layer| {
         format!(
@@ -350,34 +344,64 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
         let (name, end) = (named(&lamp.name), hidden(lamp.hidden));
         format!("{}{name} {}{end}", lamp.kind, lamp.strength)
     })?;
-    match &contents.environment {
-        None => writeln!(out, "environment: none")?,
-        Some(environment) => {
-            let [width, height] = environment.size_px;
-            let lamps = environment.lamps.len();
-            writeln!(
-                out,
-                "environment: {width} x {height} pixels; lamps found in it: {lamps}"
-            )?;
-            for sun in &environment.lamps {
-                writeln!(
-                    out,
-                    "  towards {}, {:.1} degrees above the horizon, radius {:.2} degrees, radiance {}",
-                    sun.direction.map(|it| format!("{it:.3}")).join(", "),
-                    sun.elevation_deg,
-                    sun.radius_deg,
-                    sun.radiance.map(|it| format!("{it:.1}")).join(", ")
-                )?;
-            }
-        }
-    }
+    write_environment(contents.environment.as_ref(), out)?;
     if !contents.looks.is_empty() {
         writeln!(out, "looks: {}", contents.looks.len())?;
     }
     lines(out, &contents.looks, |name| format!("\"{}\"", shown(name)))?;
     writeln!(out, "textures: {}", contents.textures)?;
-    writeln!(out, "left out of models: {}", contents.left_out.len())?;
-    for it in &contents.left_out {
+    write_left_out(&contents.left_out, out)?;
+    let free = contents.memory.available_bytes;
+    let free = free.map_or("unknown".to_owned(), |bytes| in_words(bytes as f64));
+    let needed = in_words(contents.memory.estimate_bytes);
+    writeln!(out, "memory: about {needed} to render it; {free} available")
+}
+
+fn write_objects(objects: &[Object], out: &mut String) -> fmt::Result {
+    writeln!(out, "objects: {}", objects.len())?;
+    for object in objects {
+        let size = [0, 1, 2].map(|axis| object.most_m[axis] - object.least_m[axis]);
+        writeln!(
+            out,
+            "  \"{}\": {}, from {} to {}; {} triangles, {} scratches in {} segments",
+            shown(&object.name),
+            size.map(length).join(" x "),
+            point(object.least_m),
+            point(object.most_m),
+            object.triangles,
+            object.scratches,
+            object.segments
+        )?;
+    }
+    Ok(())
+}
+
+fn write_environment(environment: Option<&Environment>, out: &mut String) -> fmt::Result {
+    let Some(environment) = environment else {
+        return writeln!(out, "environment: none");
+    };
+    let [width, height] = environment.size_px;
+    let lamps = environment.lamps.len();
+    writeln!(
+        out,
+        "environment: {width} x {height} pixels; lamps found in it: {lamps}"
+    )?;
+    for sun in &environment.lamps {
+        writeln!(
+            out,
+            "  towards {}, {:.1} degrees above the horizon, radius {:.2} degrees, radiance {}",
+            sun.direction.map(|it| format!("{it:.3}")).join(", "),
+            sun.elevation_deg,
+            sun.radius_deg,
+            sun.radiance.map(|it| format!("{it:.1}")).join(", ")
+        )?;
+    }
+    Ok(())
+}
+
+fn write_left_out(left_out: &[LeftOut], out: &mut String) -> fmt::Result {
+    writeln!(out, "left out of models: {}", left_out.len())?;
+    for it in left_out {
         writeln!(
             out,
             "  {}: {} ({}); {}{}",
@@ -392,10 +416,7 @@ fn write(contents: &Contents, out: &mut String) -> fmt::Result {
             }
         )?;
     }
-    let free = contents.memory.available_bytes;
-    let free = free.map_or("unknown".to_owned(), |bytes| in_words(bytes as f64));
-    let needed = in_words(contents.memory.estimate_bytes);
-    writeln!(out, "memory: about {needed} to render it; {free} available")
+    Ok(())
 }
 
 /// Largest number of lines of layers and lights; JSON has all.
