@@ -5,6 +5,7 @@
 
 mod coat;
 mod conductor;
+mod directions;
 mod grating;
 mod layer;
 mod nodes;
@@ -14,6 +15,7 @@ mod spectral_mode;
 
 pub use coat::CoatLobe;
 pub use conductor::{Conductor, Overlay};
+pub use directions::GrooveDirections;
 pub use grating::{FineGrating, GratingLobe};
 pub use layer::{Groove, LayerLobe};
 pub use point::PointScratch;

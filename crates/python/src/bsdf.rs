@@ -4,8 +4,8 @@ use glam::{DMat2, DVec2, DVec3};
 use hairline_document::description;
 use hairline_document::description::Scratches;
 use hairline_optics::bsdf::{
-    CoatLobe, Conductor, FineGrating, GratingLobe, Groove, LayerLobe, Overlay, PointScratch,
-    Profile, Reflected, ScratchedBsdf, SpectralMode,
+    CoatLobe, Conductor, FineGrating, GratingLobe, Groove, GrooveDirections, LayerLobe, Overlay,
+    PointScratch, Profile, Reflected, ScratchedBsdf, SpectralMode,
 };
 use hairline_optics::cover::Cover;
 use hairline_optics::footprint::{Footprint, ScratchShare, ends, scratch_share};
@@ -149,7 +149,7 @@ fn coherence_of_depths(scratches: &[Scratch], layers: &[Layer], sections: &[Sect
 
 fn layer_lobe(
     conductor: &Conductor,
-    (share, direction, spread, grooves, _): &Layer,
+    &(share, mean_rad, std_rad, ref grooves, _): &Layer,
     section: &Section,
     coherence_um: f64,
 ) -> LayerLobe {
@@ -160,11 +160,10 @@ fn layer_lobe(
     };
     LayerLobe::new(
         conductor,
-        *share,
+        share,
         grooves.iter().map(groove).collect(),
         Profile::new(section),
-        *direction,
-        *spread,
+        GrooveDirections { mean_rad, std_rad },
         coherence_um,
     )
 }
@@ -173,7 +172,7 @@ fn grating_lobe(
     (conductor, metal): (&Conductor, &MetalIndex),
     cover: Option<Cover>,
     is_coated: bool,
-    &(share, direction, spread, row, is_rigorous): &Row,
+    &(share, mean_rad, std_rad, row, is_rigorous): &Row,
     coherence_um: f64,
 ) -> GratingLobe {
     let [pitch_um, width_um, depth_nm, depth_spread, jitter_um] = row;
@@ -199,7 +198,8 @@ fn grating_lobe(
         (None, Some(cover)) => row.in_cover(&cover),
         _ => row,
     };
-    GratingLobe::new(conductor, row, fine, share, direction, spread, coherence_um)
+    let directions = GrooveDirections { mean_rad, std_rad };
+    GratingLobe::new(conductor, row, fine, share, directions, coherence_um)
 }
 
 #[pymethods]

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use super::conductor::Conductor;
+use super::directions::GrooveDirections;
 use super::spectral_mode::SpectralMode;
 use crate::cover::Cover;
 use crate::grating::{Grating, RigorousGrating};
@@ -71,8 +72,7 @@ impl GratingLobe {
         row: Grating,
         fine: Option<FineGrating>,
         share: f64,
-        direction_rad: f64,
-        angle_std_rad: f64,
+        directions: GrooveDirections,
         coherence_um: f64,
     ) -> Self {
         let farthest = (2e3 * row.pitch_um / WAVELENGTH_MIN_NM).floor() as i32;
@@ -105,8 +105,8 @@ impl GratingLobe {
             row,
             fine,
             share,
-            along: DVec2::from_angle(direction_rad),
-            angle_std_rad,
+            along: DVec2::from_angle(directions.mean_rad),
+            angle_std_rad: directions.std_rad,
             coherence_um,
             conductor_shape: shape.collect(),
             orders,

@@ -9,6 +9,7 @@ use spec_math::cephes64::{i0e, i1e};
 use std::f64::consts::PI;
 
 use super::conductor::Conductor;
+use super::directions::GrooveDirections;
 use super::profile::{Across, Profile};
 use super::spectral_mode::SpectralMode;
 use crate::scratch::band_std;
@@ -88,18 +89,16 @@ fn concentration(spread_rad: f64) -> f64 {
 }
 
 impl LayerLobe {
-    /// The mean of scratches that cover `share` of the surface by their width times their length. `direction_rad` is their mean direction from
-    /// x, `spread_rad` the standard deviation of their directions; infinite where all are as frequent.
+    /// The mean of scratches that cover `share` of the surface by their width times their length.
     pub fn new(
         conductor: &Conductor,
         share: f64,
         grooves: Vec<Groove>,
         profile: Profile,
-        direction_rad: f64,
-        spread_rad: f64,
+        directions: GrooveDirections,
         coherence_um: f64,
     ) -> Self {
-        let concentration = concentration(spread_rad);
+        let concentration = concentration(directions.std_rad);
         let mean_width_um: f64 = grooves.iter().map(|it| it.part * it.width_um).sum();
         let stds = CHANNEL_MEAN_NM.map(|nm| band_std(coherence_um, nm));
         let half_xi = HALF_UM / mean_width_um;
@@ -110,7 +109,7 @@ impl LayerLobe {
             grooves,
             profile,
             coherence_um,
-            along: DVec2::from_angle(direction_rad),
+            along: DVec2::from_angle(directions.mean_rad),
             concentration,
             concentration_i0e,
             agreement: i1e(concentration) / concentration_i0e,
@@ -347,7 +346,11 @@ mod tests {
             depth_nm,
         };
         let grooves = vec![groove(0.3, 1.0, 120.0), groove(0.7, 3.0, 260.0)];
-        LayerLobe::new(&steel, 0.02, grooves, profile, 0.4, spread_rad, 20.0)
+        let directions = GrooveDirections {
+            mean_rad: 0.4,
+            std_rad: spread_rad,
+        };
+        LayerLobe::new(&steel, 0.02, grooves, profile, directions, 20.0)
     }
 
     /// The mean over the directions by quadrature, each scratch as (4) has it, with its own q.

@@ -56,7 +56,14 @@ fn gold_with_a_row(overlay: Overlay, share: f64, roughness: f64) -> ScratchedBsd
         _ => None,
     };
     let conductor = Conductor::new(Metal::Gold, overlay, roughness);
-    let row = GratingLobe::new(&conductor, FINE, Some(fine(cover)), share, 0.9, 0.02, 20.0);
+    let row = GratingLobe::new(
+        &conductor,
+        FINE,
+        Some(fine(cover)),
+        share,
+        directions(0.9, 0.02),
+        20.0,
+    );
     ScratchedBsdf {
         gratings: vec![row],
         ..bare(conductor, roughness)
@@ -105,8 +112,7 @@ fn make_materials() -> Vec<(&'static str, ScratchedBsdf)> {
         0.03,
         vec![groove(1.0, 2.0, 200.0)],
         Profile::new(&Section::Round),
-        0.3,
-        f64::INFINITY,
+        directions(0.3, f64::INFINITY),
         20.0,
     );
     let point = |profile| PointScratch {
@@ -177,14 +183,25 @@ fn groove(part: f64, width_um: f64, depth_nm: f64) -> Groove {
     }
 }
 
+fn directions(mean_rad: f64, std_rad: f64) -> GrooveDirections {
+    GrooveDirections { mean_rad, std_rad }
+}
+
 fn layer(conductor: &Conductor, share: f64, spread_rad: f64) -> LayerLobe {
     let grooves = vec![groove(0.5, 1.5, 120.0), groove(0.5, 2.5, 200.0)];
     let profile = Profile::default();
-    LayerLobe::new(conductor, share, grooves, profile, 0.3, spread_rad, 20.0)
+    LayerLobe::new(
+        conductor,
+        share,
+        grooves,
+        profile,
+        directions(0.3, spread_rad),
+        20.0,
+    )
 }
 
 fn grating(conductor: &Conductor, row: Grating, share: f64) -> GratingLobe {
-    GratingLobe::new(conductor, row, None, share, 0.9, 0.02, 20.0)
+    GratingLobe::new(conductor, row, None, share, directions(0.9, 0.02), 20.0)
 }
 
 fn views() -> [DVec3; 3] {
@@ -378,7 +395,14 @@ fn scratches_are_reciprocal_but_for_fresnel_and_the_mask() {
     let (_, mut material) = materials().swap_remove(1);
     material.layers[0] = {
         let (grooves, profile) = (vec![groove(1.0, 2.0, 150.0)], Profile::default());
-        LayerLobe::new(&material.conductor, 1e-6, grooves, profile, 0.3, 0.2, 20.0)
+        LayerLobe::new(
+            &material.conductor,
+            1e-6,
+            grooves,
+            profile,
+            directions(0.3, 0.2),
+            20.0,
+        )
     };
     let mode = SpectralMode::Wavelength(550.0);
     let [_, a, b] = views();
