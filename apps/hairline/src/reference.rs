@@ -22,18 +22,8 @@ const SAVE_EVERY: Duration = Duration::from_secs(60);
 /// Loads, samples and writes.
 pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     let scene_path = Some(arguments.scene.as_path());
-    let output_path = arguments
-        .output
-        .clone()
-        .unwrap_or_else(|| scene_file::picture_path(scene_path, "-reference.exr"));
-    // Before the work: nobody should wait for a picture that then has no place to go.
-    let output = Output::check(&output_path)?;
-    let name = output_path.display();
-    if output.format() == Format::Png && arguments.resume {
-        return Err(Failure::Input(anyhow!(
-            "{name}: --resume needs what a .png cannot hold, the samples and their variance; end it in .exr"
-        )));
-    }
+    let output = output(arguments)?;
+    let name = output.path().display();
     let settings = settings(arguments)?;
     let overrides = Overrides {
         size_px: arguments.size,
@@ -48,9 +38,9 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
             .map_err(Failure::Work)?;
     let notes = identity::notes(&settings, &fingerprint);
 
-    let exists = output_path.exists();
+    let exists = output.path().exists();
     let earlier = (exists && arguments.resume)
-        .then(|| identity::read_to_resume(&output_path, scene.render.size_px, &notes))
+        .then(|| identity::read_to_resume(output.path(), scene.render.size_px, &notes))
         .transpose()?;
     let limits = Limits::new(arguments.spp, arguments.time, SAVE_EVERY);
     let count = earlier.as_ref().map(Count::of);
@@ -94,6 +84,21 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     drop(terminal);
 
     ended(end, Count::of(&image), &output)
+}
+
+/// The picture's place. Checked before the work: nobody should wait for a picture that then has no place to go.
+fn output(arguments: &cli::Reference) -> Result<Output, Failure> {
+    let path = arguments.output.clone();
+    let path =
+        path.unwrap_or_else(|| scene_file::picture_path(Some(&arguments.scene), "-reference.exr"));
+    let output = Output::check(&path)?;
+    if output.format() == Format::Png && arguments.resume {
+        return Err(Failure::Input(anyhow!(
+            "{}: --resume needs what a .png cannot hold, the samples and their variance; end it in .exr",
+            path.display()
+        )));
+    }
+    Ok(output)
 }
 
 /// In words, where the sampling starts.
