@@ -211,10 +211,9 @@ impl Shading<'_, '_> {
             self.counts.pairs += 1;
             let point = &self.points[i];
             let energy = scratch_energy(segment.profile, on.table(i), point.point.wo.z);
-            let mut picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
+            let picks = self.picks.as_mut().map(|picks| &mut picks[point.index]);
             let mut radiance = DVec3::ZERO;
             if picks.is_some() || !on.lit.is_empty() || on.surrounding.is_some() {
-                let picks = picks.as_deref_mut();
                 radiance = on.light((i, share), energy, picks, roots, self.counts);
             }
             self.sums[point.index].add(share, energy, radiance.to_array());

@@ -1,4 +1,4 @@
-//! The viewer's state, and a pass over it: commands, renderer, panels, picture. It alone knows all of them.
+//! The viewer's state: commands, renderer, panels, picture. It alone knows all of them.
 
 mod documents;
 mod on_disk;

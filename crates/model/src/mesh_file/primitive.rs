@@ -54,7 +54,7 @@ pub(super) fn read(
     let ([uvs, other_uvs], missing_sets) = read_uvs(&primitive.material(), &attributes, count)?;
     let colors = attributes.colors(count)?;
 
-    let place = |uvs: &Option<Vec<Vec2>>, i: usize| uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
+    let place = |uvs: &Uvs, i: usize| uvs.as_ref().map_or(Vec2::ZERO, |uvs| uvs[i]);
     let mut vertices: Vec<Vertex> = (0..count)
         .map(|i| {
             let [x, y, z, w] = tangents.as_ref().map_or([0.0; 4], |tangents| tangents[i]);
@@ -84,12 +84,15 @@ pub(super) fn read(
     }))
 }
 
-/// Texture coordinates of a vertex by both mappings of a material, and the sets that are missing.
+/// Texture coordinates of the vertices, if there are any.
+type Uvs = Option<Vec<Vec2>>;
+
+/// Texture coordinates by both mappings of a material, and the sets that are missing.
 fn read_uvs(
     material: &Material,
     attributes: &Attributes,
     count: usize,
-) -> Result<([Option<Vec<Vec2>>; 2], Vec<u32>), Flaw> {
+) -> Result<([Uvs; 2], Vec<u32>), Flaw> {
     let mappings = UvMappings::from_material(material);
     let read = |mapping: Option<UvMapping>| {
         let Some(mapping) = mapping else {
@@ -101,7 +104,7 @@ fn read_uvs(
     };
     // A surface without images keeps the first set, which another material may use.
     let first = mappings.first.unwrap_or(UvMapping::new(0, None));
-    let uvs: [Option<Vec<Vec2>>; 2] = [read(Some(first))?, read(mappings.second)?];
+    let uvs: [Uvs; 2] = [read(Some(first))?, read(mappings.second)?];
     let missing = [mappings.first, mappings.second].into_iter().zip(&uvs);
     let missing = missing.filter_map(|(mapping, uvs)| mapping.filter(|_| uvs.is_none()));
     let missing_sets = missing.map(|mapping| mapping.set).collect();

@@ -18,7 +18,7 @@ struct SlopeConic {
 }
 
 impl SlopeConic {
-    /// Whether all but a part of each slice is inside.
+    /// Whether a slice is inside beyond its two crossings, and not between them.
     fn is_outside(&self) -> bool {
         self.a2 > 0.0
     }

@@ -96,7 +96,7 @@ impl CpuStepRenderer {
         }
     }
 
-    /// What is there of a step: of one that was begun its picture, or the edges of one that it refines.
+    /// The bands of a step: those that it began with, or the edges of the picture that it refines, or new ones.
     fn bands(&mut self, order: &Order, step: &Step) -> Bands {
         let is_same = |of: &Order| of.has_same_pixels(order);
         let begun = self.begun.take();

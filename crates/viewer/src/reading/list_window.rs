@@ -95,10 +95,8 @@ fn rows(ui: &mut Ui, work: &mut Workspace, built: &Built, object: usize, layer: 
             let scratch = &laid.scratches[own.start + number];
             let texts = ScratchTexts::new(laid, scratch);
             let is_picked = picked == Some(number);
-            if ui
-                .horizontal(|ui| cells(ui, number, is_picked, texts, height))
-                .inner
-            {
+            let row = ui.horizontal(|ui| cells(ui, number, is_picked, texts, height));
+            if row.inner {
                 chosen = Some(own.start + number);
             }
         }

@@ -207,7 +207,7 @@ impl Gizmo {
     }
 }
 
-/// The place where a handle meets the mouse, and what it meets it with. `near` is the pointer, if no handle is nearer.
+/// Shows the rectangle in which a handle takes the mouse; returns its middle and the response. `near` is the pointer, where no handle is nearer.
 fn meet(ui: &Ui, id: Id, knob: Pos2, near: Option<Pos2>, name: &str) -> (Pos2, Response) {
     // The mouse meets a line wherever it is; those who see no line find its knob.
     let (middle, size) = match near {
