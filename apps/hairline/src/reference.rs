@@ -43,7 +43,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
         .then(|| identity::read_to_resume(output.path(), scene.render.size_px, &notes))
         .transpose()?;
     let limits = Limits::new(arguments.spp, arguments.time, SAVE_EVERY);
-    let count = earlier.as_ref().map(Count::of);
+    let count = earlier.as_ref().map(Count::new);
     if let Some(count) = count
         && count.least >= limits.samples
     {
@@ -70,7 +70,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     };
     let integrator = Integrator::new(scene, settings);
     let mut image = earlier.unwrap_or_else(|| integrator.start());
-    let share = Count::of(&image).share_of(limits.samples);
+    let share = Count::new(&image).share_of(limits.samples);
     let terminal = Terminal::showing(Progress::start_from("sampling", share));
     let interrupted = || interrupt.is_asked();
     let end = reference::sample(
@@ -83,7 +83,7 @@ pub fn run(arguments: &cli::Reference) -> Result<(), Failure> {
     )?;
     drop(terminal);
 
-    ended(end, Count::of(&image), &output)
+    ended(end, Count::new(&image), &output)
 }
 
 /// The picture's place. Checked before the work: nobody should wait for a picture that then has no place to go.

@@ -204,7 +204,7 @@ impl description::Grating {
                 let field = GrooveField::Spots {
                     axis,
                     center_m: world_from_object.transform_point3(spots.center_m.into()),
-                    along_row: across(axis, direction),
+                    along_row: row_across(axis, direction),
                     spacing_m: *spacing_m,
                 };
                 (field, spots.jitter_deg)
@@ -234,7 +234,7 @@ impl description::Grating {
 }
 
 /// The object's x axis, or y where the axis is nearly x; across the axis in the world, whatever the scales.
-fn across(axis: DVec3, direction_in_world: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
+fn row_across(axis: DVec3, direction_in_world: impl Fn([f64; 3]) -> DVec3) -> DVec3 {
     let [x, y] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(direction_in_world);
     let along = if axis.dot(x).abs() > 0.9 { y } else { x };
     along.reject_from(axis).normalize_or_zero()

@@ -24,14 +24,14 @@ const FRAMED_SHARE: f64 = 0.88;
 pub fn orbit(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
     let per_px = TURN_PER_HEIGHT_RAD / size_px.y.max(1.0);
     turn(camera, -drag_px.x * per_px);
-    let place = TurntablePosition::of(camera);
+    let place = TurntablePosition::new(camera);
     let polar_rad = place.polar_rad - drag_px.y * per_px;
     TurntablePosition { polar_rad, ..place }.give(camera);
 }
 
 /// Turns the camera about the axis through its target along `up`, counter-clockwise seen from above, at the same height.
 pub fn turn(camera: &mut Camera, angle_rad: f64) {
-    let place = TurntablePosition::of(camera);
+    let place = TurntablePosition::new(camera);
     TurntablePosition {
         outwards: DQuat::from_axis_angle(place.up, angle_rad) * place.outwards,
         ..place
@@ -86,7 +86,7 @@ fn turn_lights(scene: &mut Description, angle_rad: f64) {
 
 /// Moves camera and target by a drag: points at the target's depth follow the pointer exactly.
 pub fn pan(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
-    let axes = Axes::of(camera);
+    let axes = Axes::new(camera);
     let m_per_px = 2.0 * half_fov_tan(camera) * axes.distance_m / size_px.y.max(1.0);
     let moved = (axes.up * drag_px.y - axes.right * drag_px.x) * m_per_px;
     shift(camera, moved);
@@ -95,7 +95,7 @@ pub fn pan(camera: &mut Camera, drag_px: DVec2, size_px: DVec2) {
 /// Moves the camera towards its target by steps of a wheel, away from it for negative ones; each step by the same share, so
 /// that it never passes the target.
 pub fn dolly(camera: &mut Camera, steps: f64) {
-    let axes = Axes::of(camera);
+    let axes = Axes::new(camera);
     let distance_m =
         (axes.distance_m * STEP_FACTOR.powf(steps)).clamp(*DISTANCES_M.start(), *DISTANCES_M.end());
     let target = DVec3::from(camera.target_m);
@@ -104,7 +104,7 @@ pub fn dolly(camera: &mut Camera, steps: f64) {
 
 /// Moves the camera towards a point by steps of a wheel, the target along with it: the point stays where it is in the view.
 pub fn zoom_to(camera: &mut Camera, point_m: DVec3, steps: f64) {
-    let distance_m = Axes::of(camera).distance_m;
+    let distance_m = Axes::new(camera).distance_m;
     let wanted = distance_m * STEP_FACTOR.powf(steps);
     let factor = wanted.clamp(*DISTANCES_M.start(), *DISTANCES_M.end()) / distance_m;
     for place in [&mut camera.position_m, &mut camera.target_m] {
@@ -118,7 +118,7 @@ pub fn zoom_past(camera: &mut Camera, point_m: DVec3, steps: f64) {
     let target_m = DVec3::from(camera.target_m);
     zoom_to(camera, point_m, steps);
     if let Some(depth_m) = depth_m(camera, target_m) {
-        let place = DVec3::from(camera.position_m) + Axes::of(camera).forward * depth_m;
+        let place = DVec3::from(camera.position_m) + Axes::new(camera).forward * depth_m;
         camera.target_m = place.into();
     }
 }
@@ -126,13 +126,13 @@ pub fn zoom_past(camera: &mut Camera, point_m: DVec3, steps: f64) {
 /// Depth of a point before a camera, along its view; none where it can be neither target nor in focus.
 pub fn depth_m(camera: &Camera, point_m: DVec3) -> Option<f64> {
     let from_eye = point_m - DVec3::from(camera.position_m);
-    let depth_m = from_eye.dot(Axes::of(camera).forward);
+    let depth_m = from_eye.dot(Axes::new(camera).forward);
     DISTANCES_M.contains(&depth_m).then_some(depth_m)
 }
 
 /// The point in the middle of the view that is in focus.
 pub fn focused_m(camera: &Camera) -> DVec3 {
-    DVec3::from(camera.position_m) + Axes::of(camera).forward * camera.lens().focus_m
+    DVec3::from(camera.position_m) + Axes::new(camera).forward * camera.lens().focus_m
 }
 
 /// Makes a point the target, and moves the camera along with it: direction and distance stay.
@@ -156,7 +156,7 @@ pub fn frame_points(camera: &mut Camera, points_m: &[DVec3], aspect: f64) {
         center_on(camera, 0.5 * (low + high));
         return;
     }
-    let axes = Axes::of(camera);
+    let axes = Axes::new(camera);
     let tan_y = half_fov_tan(camera) * FRAMED_SHARE;
     let tan = DVec2::new(tan_y * aspect.max(1e-3), tan_y);
     let view = framing(points_m, [axes.right, axes.up, axes.forward], tan);
@@ -166,7 +166,7 @@ pub fn frame_points(camera: &mut Camera, points_m: &[DVec3], aspect: f64) {
 
 /// The height of the view at the depth of a point, in metres.
 pub fn view_height_m(camera: &Camera, point_m: DVec3) -> f64 {
-    let axes = Axes::of(camera);
+    let axes = Axes::new(camera);
     let depth_m = (point_m - DVec3::from(camera.position_m)).dot(axes.forward);
     let depth_m = if depth_m > 0.0 {
         depth_m
@@ -229,7 +229,7 @@ pub fn look_from(camera: &mut Camera, viewpoint: Viewpoint) {
         up,
         outwards,
         polar_rad,
-        distance_m: Axes::of(camera).distance_m,
+        distance_m: Axes::new(camera).distance_m,
     }
     .give(camera);
 }
@@ -247,8 +247,8 @@ struct TurntablePosition {
 }
 
 impl TurntablePosition {
-    fn of(camera: &Camera) -> Self {
-        let axes = Axes::of(camera);
+    fn new(camera: &Camera) -> Self {
+        let axes = Axes::new(camera);
         let up = unit_up(camera);
         let to_camera = -axes.forward;
         let level = to_camera - up * to_camera.dot(up);
@@ -279,7 +279,7 @@ struct Axes {
 }
 
 impl Axes {
-    fn of(camera: &Camera) -> Self {
+    fn new(camera: &Camera) -> Self {
         let way = DVec3::from(camera.target_m) - DVec3::from(camera.position_m);
         let forward = way.normalize_or(DVec3::NEG_Z);
         let right = forward

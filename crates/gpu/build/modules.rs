@@ -126,7 +126,7 @@ impl Shaders {
                 made,
                 "#[doc = {:?}]\npub static {constant}: Module = Module {{ name: {:?}, source: include_str!(concat!({folder}, \"/{}.wgsl\")), \
                  needs: &[{}], bindings: &[{}], entry_points: &{entry_points:?}, overrides: &{overrides:?} }};",
-                about(&module.text),
+                first_sentence(&module.text),
                 module.name,
                 module.file,
                 needs.collect::<String>(),
@@ -247,8 +247,8 @@ fn needs(text: &str) -> Vec<String> {
     names.filter(|name| !name.is_empty()).collect()
 }
 
-/// Its first sentence.
-fn about(text: &str) -> String {
+/// The first sentence of a shader.
+fn first_sentence(text: &str) -> String {
     let top = top(text);
     let first = top.split(". ").next().unwrap_or_default();
     first.trim_end_matches('.').to_owned() + "."

@@ -30,7 +30,7 @@ pub struct Shown {
 
 impl Shown {
     /// None where no pixel has scratches.
-    pub fn of(image: &Image, display: &Display) -> Option<Self> {
+    pub fn new(image: &Image, display: &Display) -> Option<Self> {
         let (mut scratched, mut noticed, mut white) = (0, 0, 0);
         for i in (0..image.pixel_count()).step_by(LOOKED_AT) {
             if image.density[i] == [0.0; 3] {
@@ -68,7 +68,7 @@ pub fn best_lamps(image: &Image, display: &Display) -> Option<(i32, Shown)> {
             exposure_ev,
             ..*display
         };
-        Some((stops, Shown::of(image, &display)?))
+        Some((stops, Shown::new(image, &display)?))
     });
     let worth = |(stops, shown): &(i32, Shown)| match shown.white > MOST_WHITE {
         true => -shown.white,
@@ -106,7 +106,7 @@ mod tests {
     fn dimmer_lamps_show_scratches_that_drown_in_white() {
         let display = Display::default();
         let drowned = picture(40.0, 30.0);
-        assert_eq!(Shown::of(&drowned, &display), Some(NOTHING));
+        assert_eq!(Shown::new(&drowned, &display), Some(NOTHING));
         let (stops, shown) = best_lamps(&drowned, &display).unwrap();
         assert!(stops < -3 && shown == ALL, "{stops} {shown:?}");
         // Where they show already, lamps stay as they are.
@@ -128,7 +128,7 @@ mod tests {
         }
         let at = |stops: i32| {
             let exposure_ev = f64::from(stops);
-            Shown::of(
+            Shown::new(
                 &image,
                 &Display {
                     exposure_ev,

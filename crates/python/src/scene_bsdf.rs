@@ -93,7 +93,7 @@ impl SceneBsdf {
     }
 
     /// The reflection at a point, in a frame of three unit vectors.
-    fn at(&self, point: &Point) -> ScratchedBsdf {
+    fn bsdf_at(&self, point: &Point) -> ScratchedBsdf {
         let mut bsdf = self.bare.clone();
         let reach_um = REACH_SIGMA * bsdf.coherence_um;
         let reach_m = Vec3::splat((1e-6 * reach_um) as f32);
@@ -197,7 +197,7 @@ impl SceneBsdf {
                 if !(wi.z > 0.0 && wo.z > 0.0) {
                     return ([0.0; 3], 0.0);
                 }
-                let bsdf = self.at(&point(frames[i]));
+                let bsdf = self.bsdf_at(&point(frames[i]));
                 let value = bsdf.eval(wi, wo, SpectralMode::Rgb);
                 (
                     (value.base + value.scratches).to_array(),
@@ -225,7 +225,7 @@ impl SceneBsdf {
         let drawn: Vec<_> = py.detach(|| {
             let each = (0..wo.len()).into_par_iter().with_min_len(FEWEST).map(|i| {
                 let [pick, x, y] = u[i];
-                let bsdf = self.at(&point(frames[i]));
+                let bsdf = self.bsdf_at(&point(frames[i]));
                 let drawn = bsdf.sample(wo[i].into(), pick, DVec2::new(x, y), SpectralMode::Rgb);
                 drawn.map_or((BELOW, 0.0, [0.0; 3]), |(wi, pdf, sent)| {
                     (wi.to_array(), pdf, (sent.base + sent.scratches).to_array())

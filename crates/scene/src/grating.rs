@@ -79,7 +79,7 @@ impl Grating {
             return None;
         }
         // Grooves as if the pixel saw one spot: across a rim they turn by any angle, which is no width of a fan.
-        let field = self.field.about(point_m);
+        let field = self.field.at_point(point_m);
         let course = field.course(ground, point_m, normal, axes_m);
         let tangent = field.tangent_by(course.here, point_m, normal)?;
         let turns_rad = [0, 1].map(|i| {

@@ -110,13 +110,13 @@ impl Group {
     /// Finds the position of a segment of an object under the footprints; false if no point sees it.
     #[inline(always)]
     pub fn see(&self, segment: &IndexedSegment, object: u32, seen: &mut SegmentView) -> bool {
-        let near = self.near(segment, object);
+        let near = self.near_line(segment, object);
         near.is_near.iter().sum::<u64>() != 0 && self.place(segment, &near, seen)
     }
 
     /// Finds the points near to the line of a segment.
     #[inline(always)]
-    fn near(&self, segment: &IndexedSegment, object: u32) -> NearLine {
+    fn near_line(&self, segment: &IndexedSegment, object: u32) -> NearLine {
         let (s, e) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
         let n = segment.normal.as_dvec3();
         let (x, y, z) = (&self.axis_x_um, &self.axis_y_um, &self.normal);

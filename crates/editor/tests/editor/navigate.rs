@@ -51,7 +51,7 @@ fn offset(camera: &Camera) -> DVec3 {
 }
 
 /// The point under a pixel at the target's depth.
-fn under(camera: &Camera, pixel: DVec2) -> DVec3 {
+fn point_under_pixel(camera: &Camera, pixel: DVec2) -> DVec3 {
     let frame = camera.in_scene().frame(SIZE_PX.as_uvec2().into());
     frame.position_m + frame.camera_ray(pixel) * offset(camera).length()
 }
@@ -102,7 +102,7 @@ proptest! {
     #[test]
     fn what_lies_at_the_targets_depth_follows_the_pointer(mut camera in camera(), at in px(300.0), drag in px(300.0)) {
         let pixel = 0.5 * SIZE_PX + at;
-        let held = under(&camera, pixel);
+        let held = point_under_pixel(&camera, pixel);
         pan(&mut camera, drag, SIZE_PX);
         let seen = project(&camera, held, SIZE_PX).unwrap();
         prop_assert!((seen - (pixel + drag)).length() < 1e-8, "{} {}", seen, pixel + drag);

@@ -19,12 +19,12 @@ impl Sequence {
             .wrapping_add(1442695040888963407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
-    fn between(&mut self, a: f64, b: f64) -> f64 {
+    fn uniform_between(&mut self, a: f64, b: f64) -> f64 {
         a + (b - a) * self.next()
     }
     fn direction(&mut self, lowest_z: f64) -> DVec3 {
-        let z = self.between(lowest_z, 1.0);
-        let (sin, cos) = self.between(0.0, 2.0 * PI).sin_cos();
+        let z = self.uniform_between(lowest_z, 1.0);
+        let (sin, cos) = self.uniform_between(0.0, 2.0 * PI).sin_cos();
         let r = (1.0 - z * z).sqrt();
         DVec3::new(r * cos, r * sin, z)
     }
@@ -188,8 +188,8 @@ fn sphere_lights_equal_two_dimensional_quadrature() {
             let wo = random.direction(0.2);
             // Near the band, or there is nothing to compare.
             let (offset, turn) = (
-                random.between(-1.5, 1.5) * (radius + std_xi),
-                random.between(0.0, PI),
+                random.uniform_between(-1.5, 1.5) * (radius + std_xi),
+                random.uniform_between(0.0, PI),
             );
             let w_t = -wo.x + offset;
             if w_t.abs() > 0.9 {
@@ -232,7 +232,7 @@ fn one_line_through_a_sphere_is_exact_wherever_it_lies() {
         let (wo, axis, radius) = (
             random.direction(0.0),
             random.direction(-1.0),
-            random.between(0.05, 3.0),
+            random.uniform_between(0.05, 3.0),
         );
         let cap = Cap {
             axis,
@@ -254,7 +254,7 @@ fn one_line_through_a_sphere_is_exact_wherever_it_lies() {
 
 /// A random planar polygon, star-shaped about its centre and seldom convex, with its plane's normal.
 fn random_polygon(random: &mut Sequence, size: f64) -> Vec<DVec3> {
-    let center = random.direction(-0.4) * random.between(0.5, 2.0);
+    let center = random.direction(-0.4) * random.uniform_between(0.5, 2.0);
     let normal = random.direction(-1.0);
     let u = normal.any_orthonormal_vector();
     let v = normal.cross(u);
@@ -262,7 +262,7 @@ fn random_polygon(random: &mut Sequence, size: f64) -> Vec<DVec3> {
     (0..count)
         .map(|i| {
             let (sin, cos) = (2.0 * PI * (i as f64 + 0.8 * random.next()) / count as f64).sin_cos();
-            center + size * random.between(0.2, 1.0) * (u * cos + v * sin)
+            center + size * random.uniform_between(0.2, 1.0) * (u * cos + v * sin)
         })
         .collect()
 }
@@ -295,7 +295,7 @@ fn one_line_through_any_polygon_is_exact() {
     let mut random = Sequence(11);
     let (mut pairs, mut crossing, mut covering_down) = (Vec::new(), 0, 0);
     while pairs.len() < 174 {
-        let size = random.between(0.1, 6.0);
+        let size = random.uniform_between(0.1, 6.0);
         let vertices = random_polygon(&mut random, size);
         let wo = random.direction(0.0);
         let line = BandLine::new(wo, 0.0);
@@ -334,11 +334,11 @@ fn polygon_lights_equal_two_dimensional_quadrature() {
             let wo = random.direction(0.3);
             // Moved onto the band.
             let center: DVec3 = vertices.iter().sum::<DVec3>() / vertices.len() as f64;
-            let w_t = -wo.x + random.between(-1.0, 1.0) * 0.3 * size;
+            let w_t = -wo.x + random.uniform_between(-1.0, 1.0) * 0.3 * size;
             if w_t.abs() > 0.8 {
                 continue;
             }
-            let (sin, cos) = random.between(0.3, PI - 0.3).sin_cos();
+            let (sin, cos) = random.uniform_between(0.3, PI - 0.3).sin_cos();
             let r = (1.0 - w_t * w_t).sqrt();
             let target = DVec3::new(w_t, r * cos, r * sin);
             vertices.iter_mut().for_each(|v| *v += target - center);
@@ -420,14 +420,14 @@ fn colour_errors(table: &crate::table::ScratchTable, radius: f64) -> [f64; 2] {
     };
     while own.len() < 3 * 60 {
         let wo = random.direction(0.3);
-        let offset = random.between(-1.5, 1.5) * (radius + stds.mean);
+        let offset = random.uniform_between(-1.5, 1.5) * (radius + stds.mean);
         let w_t = -wo.x + offset;
         if w_t.abs() > 0.9 {
             continue;
         }
         let r = (1.0 - w_t * w_t).sqrt();
         // Within some lobes of the mirror's direction, where there is light.
-        let q = random.between(-0.4, 0.4);
+        let q = random.uniform_between(-0.4, 0.4);
         let across = q - wo.y;
         if across.abs() > 0.95 * r {
             continue;
@@ -439,7 +439,10 @@ fn colour_errors(table: &crate::table::ScratchTable, radius: f64) -> [f64; 2] {
             sin_radius,
             cos_radius,
         };
-        let (width_um, depth_nm) = (random.between(1.0, 5.0), random.between(60.0, 400.0));
+        let (width_um, depth_nm) = (
+            random.uniform_between(1.0, 5.0),
+            random.uniform_between(60.0, 400.0),
+        );
         let exact = spectral(wo, cap, width_um, depth_nm);
         let (lowest, highest) = sphere_band_extent(wo, cap);
         let value = |stds| {
@@ -486,11 +489,14 @@ fn oblique_errors(radius: f64, near_horizon: bool) -> [f64; 2] {
     while pairs.len() < 400 {
         let wo = random.direction(0.2);
         let line = BandLine::new(wo, 0.0);
-        let (width_um, depth_nm) = (random.between(1.0, 5.0), random.between(60.0, 400.0));
+        let (width_um, depth_nm) = (
+            random.uniform_between(1.0, 5.0),
+            random.uniform_between(60.0, 400.0),
+        );
         let middle = if near_horizon {
-            random.between(-0.2, 0.2) + if random.next() < 0.5 { 0.0 } else { PI }
+            random.uniform_between(-0.2, 0.2) + if random.next() < 0.5 { 0.0 } else { PI }
         } else {
-            random.between(0.0, PI)
+            random.uniform_between(0.0, PI)
         };
         let off = (line.offset + line.radius * middle.cos()).abs();
         if random.next() > (-(off - radius).max(0.0) / 0.25).exp() {
@@ -627,7 +633,7 @@ fn no_input_yields_nan() {
             if random.next() < 0.3 {
                 awkward[(random.next() * 5.0) as usize]
             } else {
-                random.between(-1.0, 1.0)
+                random.uniform_between(-1.0, 1.0)
             }
         };
         let wo = DVec3::new(pick(), pick(), pick().abs()).normalize_or(DVec3::Z);

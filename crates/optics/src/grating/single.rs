@@ -168,7 +168,7 @@ mod tests {
     }
 
     /// The place `um` from that of groove 0.
-    fn at(um: f64) -> GroovesAt {
+    fn grooves_at(um: f64) -> GroovesAt {
         let number = (um / 40.0).round();
         GroovesAt {
             number: number as i32,
@@ -179,7 +179,7 @@ mod tests {
     }
 
     fn density(row: &Grating, um: f64, std_um: f64) -> f64 {
-        row.groove_density(at(um), std_um, 7)
+        row.groove_density(grooves_at(um), std_um, 7)
     }
 
     #[test]

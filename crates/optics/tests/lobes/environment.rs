@@ -10,7 +10,7 @@ use hairline_optics::ggx::{ggx_alpha, ggx_eval};
 use hairline_optics::ltc::{ltc_lobe, sphere_light};
 
 /// A direction in the plane of view and normal at zero degrees from `mirror` to the horizon, across at a quarter turn.
-fn off(mirror: DVec3, angle_rad: f64, turn_rad: f64) -> DVec3 {
+fn direction_off(mirror: DVec3, angle_rad: f64, turn_rad: f64) -> DVec3 {
     let ahead = DVec3::new(mirror.z, 0.0, -mirror.x);
     mirror * angle_rad.cos()
         + (ahead * turn_rad.cos() + DVec3::Y * turn_rad.sin()) * angle_rad.sin()
@@ -58,7 +58,7 @@ fn misplaced(wo: DVec3, roughness: f64, looked_up: &[(DVec3, f64, f64)]) -> f64 
     let mut sum = 0.0;
     for (angle, step) in growing_steps(160, 1e-2 * alpha, PI) {
         for turn in 0..turns {
-            let w = off(
+            let w = direction_off(
                 mirror,
                 angle,
                 TAU * (f64::from(turn) + 0.5) / f64::from(turns),
@@ -120,7 +120,7 @@ fn spheres_are_right_in_the_tails() {
             let wo = DVec3::new(sin, 0.0, cos);
             for off_rad in [0.1, 0.2, 0.3, 0.5, 0.7] {
                 for turn_rad in [0.0, 0.8, FRAC_PI_2, 2.3, PI] {
-                    let to_lamp = off(DVec3::new(-sin, 0.0, cos), off_rad, turn_rad);
+                    let to_lamp = direction_off(DVec3::new(-sin, 0.0, cos), off_rad, turn_rad);
                     if to_lamp.z < 0.35 {
                         continue;
                     }

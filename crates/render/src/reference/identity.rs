@@ -104,8 +104,8 @@ pub fn check(
     if image.size_px != size_px {
         differences.push(format!(
             "its size is {} and not {}",
-            by(image.size_px),
-            by(size_px)
+            size_text(image.size_px),
+            size_text(size_px)
         ));
     }
     for (name, called) in NOTES {
@@ -142,6 +142,6 @@ pub fn check(
     }
 }
 
-fn by(size_px: [u32; 2]) -> String {
+fn size_text(size_px: [u32; 2]) -> String {
     format!("{}x{}", size_px[0], size_px[1])
 }

@@ -86,7 +86,7 @@ pub fn sample(
         };
         let flow = integrator.run(image, limits.samples, &observe);
 
-        let count = Count::of(image);
+        let count = Count::new(image);
         let end = if flow.is_continue() || count.least >= limits.samples {
             Some(End::Complete)
         } else if interrupted() {
@@ -151,7 +151,7 @@ pub struct Count {
 
 impl Count {
     /// Counts the samples of an image; none if it does not state them.
-    pub fn of(image: &Image) -> Self {
+    pub fn new(image: &Image) -> Self {
         let samples = image.noise.as_ref().map_or(&[][..], |n| &n.samples);
         let sum: u64 = samples.iter().map(|&n| u64::from(n)).sum();
         Self {
@@ -200,7 +200,7 @@ mod tests {
         let mut image = integrator.start();
         let flow = integrator.run(&mut image, SAMPLES, &|_| ControlFlow::Continue(()));
         assert!(flow.is_continue());
-        assert_eq!(Count::of(&image).mean, f64::from(SAMPLES));
+        assert_eq!(Count::new(&image).mean, f64::from(SAMPLES));
         image
     }
 
@@ -213,7 +213,7 @@ mod tests {
         let saved = Cell::new(0);
         let stop_at_third = |image: &Image| {
             saved.set(saved.get() + 1);
-            assert!(Count::of(image).mean > 0.0);
+            assert!(Count::new(image).mean > 0.0);
             if saved.get() == 3 {
                 interrupt.store(true, Ordering::Relaxed);
             }
@@ -229,7 +229,7 @@ mod tests {
         );
         assert_eq!(end.unwrap(), End::Interrupted);
         assert_eq!(saved.get(), 4, "and once more at the end");
-        let count = Count::of(&image);
+        let count = Count::new(&image);
         assert!(
             count.mean > f64::from(count.least) && count.least < SAMPLES,
             "the hard case has pixels with more samples than others: {count:?}"

@@ -166,12 +166,14 @@ impl GrooveField {
                     }
                 })
             }
-            Self::Spots { .. } => self.about(point_m).tangent_by(direction, point_m, normal),
+            Self::Spots { .. } => self
+                .at_point(point_m)
+                .tangent_by(direction, point_m, normal),
         }
     }
 
     /// The field that is about a point: of spots, that of the last one there.
-    pub(super) fn about(&self, point_m: DVec3) -> Self {
+    pub(super) fn at_point(&self, point_m: DVec3) -> Self {
         match *self {
             Self::Spots {
                 axis,

@@ -57,7 +57,7 @@ impl GrooveField {
                 let away = direction.dot(away_m.normalize_or_zero());
                 Some([[away_m.length(), height_m], [away, direction.dot(axis)]])
             }
-            Self::Spots { .. } => self.about(point_m).across_m(point_m, direction),
+            Self::Spots { .. } => self.at_point(point_m).across_m(point_m, direction),
             Self::Around { .. } | Self::ByUv { .. } => None,
         }
     }

@@ -63,7 +63,7 @@ pub(crate) fn develop(
     let findings = Findings {
         histogram,
         depths_m,
-        shown: Shown::of(image, display),
+        shown: Shown::new(image, display),
         best_lamps: wanted
             .tries_lamps
             .then(|| best_lamps(image, display))

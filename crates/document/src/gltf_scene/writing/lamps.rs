@@ -136,7 +136,7 @@ fn sun_factor(light: &Light) -> f64 {
 }
 
 /// A place whose -z is an axis.
-fn along(axis: DVec3, place: DVec3) -> DMat4 {
+fn place_along(axis: DVec3, place: DVec3) -> DMat4 {
     let z = -axis.normalize_or(DVec3::NEG_Z);
     let x = z.any_orthonormal_vector();
     placed(DMat3::from_cols(x, z.cross(x), z), place)
@@ -182,7 +182,7 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
                 words["spot"] = spot(cone);
             }
             let axis = in_scene.cone.map_or(DVec3::NEG_Z, |cone| cone.axis);
-            Some((PUNCTUAL, words, along(axis, (*center_m).into())))
+            Some((PUNCTUAL, words, place_along(axis, (*center_m).into())))
         }
         LightKind::Sun {
             direction,
@@ -193,7 +193,11 @@ fn words(light: &Light) -> Option<(&'static str, Value, DMat4)> {
             let mut words =
                 json!({ "type": "directional", "color": color, "intensity": intensity });
             words["extras"] = json!({ "angle": 0.5 * angle_deg.to_radians() });
-            Some((PUNCTUAL, words, along((*direction).into(), DVec3::ZERO)))
+            Some((
+                PUNCTUAL,
+                words,
+                place_along((*direction).into(), DVec3::ZERO),
+            ))
         }
         LightKind::Disk {
             center_m, radius_m, ..
