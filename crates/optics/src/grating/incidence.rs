@@ -64,7 +64,7 @@ impl Viewer {
 }
 
 impl RigorousGrating<'_> {
-    /// As [`Grating::table`], of which it has the columns; a row is an [incidence](IncidenceRow). The last column has half of what is missing in the
+    /// As [`Grating::table`](super::Grating::table), of which it has the columns; a row is an [incidence](IncidenceRow). The last column has half of what is missing in the
     /// mirror's direction, over the light that a flat surface sends there.
     pub fn table(&self, coherence_um: f64) -> ScratchTable {
         let samples = self.observer.samples();
