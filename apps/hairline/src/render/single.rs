@@ -92,7 +92,8 @@ fn tell_of_what_is_not_seen(image: &Image, loaded: &Loaded, work: &Work<'_>) {
         note(nothing);
     }
     if work.arguments.scene_flags.show_scratches
-        && let Some(shown) = Shown::new(image, &work.writer.display).filter(|it| it.noticed < LITTLE)
+        && let Some(shown) =
+            Shown::new(image, &work.writer.display).filter(|it| it.noticed < LITTLE)
     {
         note(&shown.little());
     }
