@@ -49,7 +49,7 @@ impl Fit {
     }
 
     /// A point of the file as the scene has it.
-    pub(super) fn from_middle(&self, p: DVec3) -> DVec3 {
+    pub(super) fn placed_m(&self, p: DVec3) -> DVec3 {
         self.turned(p - self.middle_m)
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn lamp(light: &Punctual, fit: &Fit) -> Result<Light, String> {
     }
     let radius = LAMP_RADIUS * fit.extent_m;
     let radiance = watts / (PI * radius * radius);
-    let center_m = fit.from_middle(light.position);
+    let center_m = fit.placed_m(light.position);
     let radius_m = (fit.factor * radius).max(SMALLEST_M);
     // A point that is no number does not lie within either.
     if !center_m.abs().cmple(DVec3::splat(LARGEST_M)).all() {
