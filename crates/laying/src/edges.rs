@@ -175,7 +175,7 @@ mod tests {
         // A lathe seen from within: a tube's inside, with a corner to its floor.
         let shape =
             "lathe = { profile_m = [[0.0, 0.0], [0.05, 0.0], [0.05, 0.1]], segments = 128 }";
-        let edges = edges(&shape, 0.01);
+        let edges = edges(shape, 0.01);
         assert_eq!(edges.prominence(DVec3::new(0.049, 0.0, 0.0), DVec3::Z), 0.0);
         assert_eq!(
             edges.prominence(DVec3::new(0.05, 0.0, 0.05), -DVec3::X),
@@ -187,7 +187,7 @@ mod tests {
     fn the_far_side_of_a_sheet_does_not_count() {
         // 2 mm thick, a reach of 10 mm.
         let shape = "box = { size_m = [0.2, 0.2, 0.002] }";
-        let edges = edges(&shape, 0.01);
+        let edges = edges(shape, 0.01);
         let found = edges.prominence(DVec3::new(0.0, 0.095, 0.001), DVec3::Z);
         assert!((found - 0.75f64.powf(1.5)).abs() < 0.02, "{found}");
     }
