@@ -95,7 +95,6 @@ impl LightView {
 pub struct LightViews<'a> {
     lights: Vec<&'a Light>,
     textures: &'a [Texture],
-    /// Number of `lights` that shine on the base too.
     /// Lights that the point sees.
     pub views: Vec<LightView>,
     /// Index in `views` of each light of the scene; `u32::MAX` if it is left out.
