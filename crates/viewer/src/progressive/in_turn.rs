@@ -91,9 +91,13 @@ impl InTurn {
             }
             #[cfg(target_arch = "wasm32")]
             Painter::Gpu(task) => {
-                let progress = &task.at_rest()?.progress;
-                let pause = self.pause.time_to_wait(progress, &order)?;
-                if progress.is_at(&order) && shared.is_paused() {
+                // The bench is given back before the task takes it.
+                let (pause, is_at_order) = {
+                    let progress = &task.at_rest()?.progress;
+                    let pause = self.pause.time_to_wait(progress, &order)?;
+                    (pause, progress.is_at(&order))
+                };
+                if is_at_order && shared.is_paused() {
                     return None;
                 }
                 if pause.is_zero() {
