@@ -27,8 +27,7 @@ pub fn lay_on_mesh(
     metres_per_unit: f64,
 ) -> Result<Object, Error> {
     let world_from_object = DMat4::from_scale(DVec3::splat(metres_per_unit));
-    let mut baked = Mesh::default();
-    mesh.surface().bake(&world_from_object, 0, &mut baked);
+    let baked = mesh.surface().baked(&world_from_object);
     if baked.triangles.is_empty() {
         let right = "must have triangles that span an area";
         return Err(Error::new("mesh", "found no surface", right));

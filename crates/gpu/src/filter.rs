@@ -88,7 +88,7 @@ impl FilterPasses {
         let per_layer = 2 * films.len() as u64 + u64::from(PASSES) + 1;
         let settings_max = per_layer * u64::from(LAYERS);
         let last = self.buffers.take();
-        let buffers = match last.filter(|last| last.have_room(size_px, settings_max)) {
+        let buffers = match last.filter(|last| last.are_enough(size_px, settings_max)) {
             Some(last) => last,
             None => FilterBuffers::new(gpu, size_px, settings_max).await?,
         };
@@ -235,7 +235,9 @@ impl FilterBuffers {
             settings_max,
         })
     }
-    fn have_room(&self, size_px: [u32; 2], settings_max: u64) -> bool {
+
+    /// Whether they serve a picture of this size and so many settings.
+    fn are_enough(&self, size_px: [u32; 2], settings_max: u64) -> bool {
         self.size_px == size_px && self.settings_max >= settings_max
     }
 

@@ -52,6 +52,13 @@ const LEAST_HEIGHT_ROUNDINGS: f64 = 4.0;
 const LEAST_HEIGHT_SHARE: f64 = 1e-6;
 
 impl Surface {
+    /// The surface as a mesh, as by [`Self::bake`], with material 0.
+    pub fn baked(&self, world_from_local: &DMat4) -> Mesh {
+        let mut mesh = Mesh::default();
+        self.bake(world_from_local, 0, &mut mesh);
+        mesh
+    }
+
     /// Appends the surface, moved by `world_from_local`, to `mesh`, without its degenerate triangles.
     pub fn bake(&self, world_from_local: &DMat4, material: u32, mesh: &mut Mesh) {
         let linear = DMat3::from_mat4(*world_from_local);

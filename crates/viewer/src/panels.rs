@@ -35,3 +35,15 @@ fn button(ui: &mut Ui, work: &mut Workspace, command: Command) {
         work.requested.push(command);
     }
 }
+
+/// Buttons for what can be done with a part among others, in their order.
+fn list_buttons(ui: &mut Ui, work: &mut Workspace) {
+    for command in [
+        Command::Duplicate,
+        Command::MoveUp,
+        Command::MoveDown,
+        Command::Delete,
+    ] {
+        button(ui, work, command);
+    }
+}

@@ -131,13 +131,12 @@ impl KeptSurface {
         let (mut notes, mut parts) = (Vec::new(), Vec::new());
         let transform = &surface_key.world_from_object;
         let mesh = match (&surface_key.surface, &surface_key.file) {
-            (Surface::Mesh(file), _) if loader.arrays.mesh(file).is_some() => {
+            (Surface::Mesh(file), _) if let Some(arrays) = loader.arrays.mesh(file) => {
                 if surface_key.wanted.own_materials {
                     let right = "a mesh in memory has none of its own";
                     return Err(Error::new(key, "`material` is missing", right));
                 }
-                let arrays = loader.arrays.mesh(file);
-                arrays.map_or_else(Mesh::default, |arrays| baked(&arrays.surface(), transform))
+                arrays.surface().baked(transform)
             }
             (Surface::Mesh(file), Some(stamp)) => {
                 let mut found = Vec::new();
@@ -163,7 +162,7 @@ impl KeptSurface {
                     Error::new(format!("{key}.mesh"), found, flaw.right)
                 })?
             }
-            (Surface::Shape(shape), _) => baked(&shape::surface(shape), transform),
+            (Surface::Shape(shape), _) => shape::surface(shape).baked(transform),
             (Surface::Mesh(_), None) => unreachable!("a file has a stamp"),
         };
         if mesh.triangles.is_empty() {
@@ -244,12 +243,6 @@ impl KeptSurface {
         // The list is consistent even after a panic: items are pushed whole.
         self.grounds.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-fn baked(surface: &hairline_model::surface::Surface, world_from_object: &DMat4) -> Mesh {
-    let mut mesh = Mesh::default();
-    surface.bake(world_from_object, 0, &mut mesh);
-    mesh
 }
 
 /// Note about an object without surface. `key` is its path.

@@ -10,9 +10,7 @@ use super::surface;
 use crate::description::Shape;
 
 fn baked(shape: &Shape) -> Mesh {
-    let mut mesh = Mesh::default();
-    surface(shape).bake(&DMat4::IDENTITY, 0, &mut mesh);
-    mesh
+    surface(shape).baked(&DMat4::IDENTITY)
 }
 
 fn cup() -> Shape {
@@ -302,8 +300,7 @@ fn mirrored_objects_keep_their_outside() {
     let sphere = surface(&Shape::Sphere { radius_m: 0.1 });
     for scale in [[1.0; 3], [-1.0, 1.0, 1.0], [-1.0; 3], [1.0, -2.0, 0.5]] {
         let transform = world_from_object([0.0; 3], [10.0, 20.0, 30.0], scale);
-        let mut mesh = Mesh::default();
-        sphere.bake(&transform, 0, &mut mesh);
+        let mesh = sphere.baked(&transform);
         for (i, triangle) in mesh.triangles.iter().enumerate() {
             let outward = mesh.corners_m(i).iter().sum::<DVec3>();
             let normal = geometric_normal(&mesh, i);
@@ -319,8 +316,7 @@ fn mirrored_objects_keep_their_outside() {
 fn flat_normals_are_those_of_the_triangles() {
     let mut sphere = surface(&Shape::Sphere { radius_m: 1.0 });
     sphere.make_flat_normals();
-    let mut mesh = Mesh::default();
-    sphere.bake(&DMat4::IDENTITY, 0, &mut mesh);
+    let mesh = sphere.baked(&DMat4::IDENTITY);
     for (i, triangle) in mesh.triangles.iter().enumerate() {
         for &v in triangle {
             let normal = mesh.normals[v as usize].as_dvec3();

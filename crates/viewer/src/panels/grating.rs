@@ -9,7 +9,6 @@ use hairline_scene::FINE_PITCH_UM;
 use super::form::Form;
 use super::groove_pattern;
 use super::layer_place::{radii, tile};
-use crate::command::Command;
 use crate::workspace::Workspace;
 
 pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
@@ -39,16 +38,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         });
     }
     ui.add_space(8.0);
-    ui.horizontal_wrapped(|ui| {
-        for command in [
-            Command::Duplicate,
-            Command::MoveUp,
-            Command::MoveDown,
-            Command::Delete,
-        ] {
-            super::button(ui, work, command);
-        }
-    });
+    ui.horizontal_wrapped(|ui| super::list_buttons(ui, work));
 }
 
 /// Rows for the grooves themselves.

@@ -263,14 +263,7 @@ fn buttons(ui: &mut Ui, work: &mut Workspace, index: usize, layer: &Scratches, d
         if keep.on_disabled_hover_text(NO_PRESET).clicked() {
             work.requested.push(Command::SavePreset);
         }
-        for command in [
-            Command::Duplicate,
-            Command::MoveUp,
-            Command::MoveDown,
-            Command::Delete,
-        ] {
-            super::button(ui, work, command);
-        }
+        super::list_buttons(ui, work);
     });
 }
 
