@@ -196,7 +196,7 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
         let (center_m, radius_m) = light.bounding_sphere();
         let own = vertices_m(light);
         let first_vertex = vertices.len() as u32;
-        add_places(light, &own, array, origin_m, &mut vertices);
+        add_places(light, array, origin_m, &mut vertices);
         let bounded = layout::Light {
             radiance: light.radiance.map(|c| c as f32),
             center_m: relative(center_m, origin_m),
@@ -240,20 +240,14 @@ pub(crate) fn packed(scene: &Scene, array: &TextureArray, origin_m: DVec3) -> Ve
     texels
 }
 
-/// Adds the entries of a light, whose vertices are `own_m`, to the array of vertices.
-fn add_places(
-    light: &Light,
-    own_m: &[DVec3],
-    array: &TextureArray,
-    origin_m: DVec3,
-    vertices: &mut Vec<[f32; 4]>,
-) {
+/// Adds the entries of a light in the array of vertices.
+fn add_places(light: &Light, array: &TextureArray, origin_m: DVec3, vertices: &mut Vec<[f32; 4]>) {
     // Vertices of a tube hold its radius too.
     let w = match light.shape {
         LightShape::Tube { radius_m, .. } => radius_m as f32,
         _ => 0.0,
     };
-    vertices.extend(own_m.iter().map(|vertex| {
+    vertices.extend(vertices_m(light).iter().map(|vertex| {
         let [x, y, z] = relative(*vertex, origin_m);
         [x, y, z, w]
     }));
