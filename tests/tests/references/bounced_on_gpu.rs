@@ -46,7 +46,7 @@ fn the_gpus_bounces_are_the_cpus_in_the_mean() {
     ];
     let scenes = scenes().into_iter().chain(more);
     let few = [1, 1, 3, 1, 1].map(|bounces| (bounces, 64));
-    let settings = few.into_iter().chain([(1, 96), (2, 128)]);
+    let settings = few.into_iter().chain([(1, 96), (2, 384)]);
     for ((bounces, samples), (name, scene)) in settings.zip(scenes) {
         let on_gpu = |bounces| on_gpu(&scene, samples, Some(bounces));
         let Some([with, without]) = pair(on_gpu, bounces) else {
