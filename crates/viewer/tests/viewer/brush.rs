@@ -347,18 +347,31 @@ fn a_stroke_that_hardly_shows_is_marked_and_told_of() {
             .is_some_and(|frame| frame.painted.is_final)
     };
     common::wait_until(&mut harness, "a whole picture", is_whole);
-    let from = middle(&harness) + vec2(-30.0, 5.0);
-    common::drag(&mut harness, from, from + vec2(60.0, 0.0), 12);
-    assert_eq!(marks(&harness), 1, "nothing shows it yet");
-    let revision = harness.state().document().revision();
-    common::wait_until(&mut harness, "a whole picture of it", |viewer| {
-        let frame = viewer.renderer().latest();
-        frame.is_some_and(|it| it.built.revision >= revision && it.painted.is_final)
-    });
-    harness.run_steps(2);
-    let said = harness.state().messages().concat();
-    assert!(said.contains("The stroke hardly shows"), "{said}");
-    assert_eq!(marks(&harness), 1);
+    let is_told = |harness: &Harness<'static, Viewer>| {
+        let said = harness.state().messages().concat();
+        said.contains("The stroke hardly shows")
+    };
+    let draw = |harness: &mut Harness<'static, Viewer>| {
+        let from = middle(harness) + vec2(-30.0, 5.0);
+        common::drag(harness, from, from + vec2(60.0, 0.0), 12);
+        assert_eq!(marks(harness), 1, "nothing shows it yet");
+        let revision = harness.state().document().revision();
+        common::wait_until(harness, "a whole picture of it", |viewer| {
+            let frame = viewer.renderer().latest();
+            frame.is_some_and(|it| it.built.revision >= revision && it.painted.is_final)
+        });
+        harness.run_steps(2);
+        assert!(is_told(harness), "{}", harness.state().messages().concat());
+        assert_eq!(marks(harness), 1);
+    };
+    draw(&mut harness);
     common::key(&mut harness, egui::Key::V);
     assert_eq!(marks(&harness), 0);
+    // What is undone is told of no more.
+    common::key(&mut harness, egui::Key::B);
+    draw(&mut harness);
+    harness.state_mut().document_mut().undo();
+    harness.run_steps(2);
+    assert_eq!(marks(&harness), 0);
+    assert!(!is_told(&harness));
 }

@@ -158,11 +158,16 @@ pub(super) fn show_drawn(
     let Some(drawn) = kept else {
         return;
     };
+    if !drawn.is_there(work) {
+        work.notices.clear("stroke");
+        *kept = None;
+        return;
+    }
     let lens = Lens::new(&work.camera(), area);
     drawn.judge(work, &lens, area, canvas);
     let has_brush = matches!(work.toolbox.tool, Tool::Brush | Tool::Eraser);
     let is_marked = drawn.is_awaited(work) || has_brush && (drawn.is_faint || !drawn.is_judged);
-    if drawn.is_judged && !is_marked || !drawn.is_there(work) {
+    if drawn.is_judged && !is_marked {
         *kept = None;
         return;
     }
