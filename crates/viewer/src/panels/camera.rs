@@ -24,9 +24,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace) {
     let size_px = description.render.size_px;
     focal_length(&mut form, &mut camera, size_px);
     lens(&mut form, &mut camera, size_px, &mut work.closed_lens);
-    form.vector(Camera::POSITION_M, &mut camera.position_m);
-    form.vector(Camera::TARGET_M, &mut camera.target_m);
-    form.vector(Camera::UP, &mut camera.up);
+    form.rest(&mut camera);
     if let Some(change) = form.change() {
         // Changes here should be visible, so the free view ends; the exposure is the same in all views.
         if camera.exposure_ev == work.document.description().camera.exposure_ev {
@@ -231,6 +229,7 @@ pub(super) fn show_render(ui: &mut Ui, work: &mut Workspace) {
         depths,
         &mut render.png_bits,
     );
+    form.rest(&mut render);
     let wanted = form.wanted();
     if let Some(change) = form.change() {
         render.size_px = size.map(|side| side.round() as u32);

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use egui::{Response, Ui};
 use hairline_document::Description;
-use hairline_document::description::{Distribution, Laid, Panel, RowValue, Shape};
+use hairline_document::description::{Distribution, Laid, Panel, RowValue, Rows, Shape};
 use hairline_document::schema::{Form as Spelling, Key};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
@@ -50,6 +50,8 @@ pub(crate) struct Form<'a> {
     change: Option<Change>,
     /// The picture whose file is to be chosen.
     wanted: Option<PictureOf>,
+    /// Names of the keys that have a row, or are to have none.
+    shown: Vec<&'static str>,
 }
 
 impl<'a> Form<'a> {
@@ -60,7 +62,24 @@ impl<'a> Form<'a> {
             scope: DragKey::from_name(scope),
             change: None,
             wanted: None,
+            shown: Vec::new(),
         }
+    }
+
+    /// Rows for all keys of a table that have a control and no row yet. Rows before it are for keys that need more than their control, or an order.
+    pub fn rest(&mut self, table: &mut dyn Rows) {
+        table.rows(&mut Rest(self));
+    }
+
+    /// Keys of a table that [`Self::rest`] shows no row for.
+    pub fn leave_out(&mut self, keys: &[&Key]) {
+        self.shown.extend(keys.iter().map(|key| key.name));
+    }
+
+    /// What the control of a key shows.
+    fn range(&mut self, key: &Key) -> Range {
+        self.shown.push(key.name);
+        range(key, self.diagonal_m)
     }
 
     /// Change in this pass.
@@ -107,7 +126,8 @@ impl<'a> Form<'a> {
 
     /// A number: slider and box.
     pub fn number(&mut self, key: &Key, value: &mut f64) {
-        self.ranged(&range(key, self.diagonal_m), value);
+        let range = self.range(key);
+        self.ranged(&range, value);
     }
 
     /// A length that scene files have in millimetres. What is not touched keeps all of its digits.
@@ -154,7 +174,7 @@ impl<'a> Form<'a> {
 
     /// Numbers side by side, each a box to drag in.
     pub fn boxes(&mut self, key: &Key, names: &[&str], values: &mut [f64]) {
-        let range = range(key, self.diagonal_m);
+        let range = self.range(key);
         self.boxes_labelled(range.label, &range, names, values);
     }
 
@@ -213,7 +233,7 @@ impl<'a> Form<'a> {
 
     /// A linear colour, each channel in [0, 1].
     pub fn color(&mut self, key: &Key, value: &mut [f64; 3]) {
-        let range = range(key, self.diagonal_m);
+        let range = self.range(key);
         self.row(range.label, range.tooltip, |ui, label| {
             let mut rgb = value.map(|channel| channel as f32);
             let response = ui.color_edit_button_rgb(&mut rgb).labelled_by(label.id);
@@ -233,7 +253,7 @@ impl<'a> Form<'a> {
 
     /// Yes or no, by the texts of a key.
     pub fn flag(&mut self, key: &Key, value: &mut bool) {
-        let range = range(key, self.diagonal_m);
+        let range = self.range(key);
         self.toggle(range.label, range.tooltip, value);
     }
 
@@ -348,14 +368,14 @@ impl<'a> Form<'a> {
 
     /// Row for one of several places, counted from 1 on the screen.
     pub fn numbered(&mut self, key: &Key, i: usize, position_m: &mut [f64; 3]) {
-        let range = range(key, self.diagonal_m);
+        let range = self.range(key);
         let label = format!("{} {}", range.label, i + 1);
         self.boxes_labelled(&label, &range, &["x", "y", "z"], position_m);
     }
 
     /// A point of a lathe's profile.
     pub fn point(&mut self, i: usize, radius_m: &mut f64, height_m: &mut f64) {
-        let range = range(Shape::PROFILE_M, self.diagonal_m);
+        let range = self.range(Shape::PROFILE_M);
         let heights = second_range(Shape::PROFILE_M, self.diagonal_m);
         let label = format!("Point {}", i + 1);
         let fine_m = FINE * self.diagonal_m;
@@ -373,7 +393,7 @@ impl<'a> Form<'a> {
 
     /// A number that stands for a draw of lots, with a die that throws another.
     pub fn seed(&mut self, value: &mut u64) {
-        let range = range(Laid::SEED, self.diagonal_m);
+        let range = self.range(Laid::SEED);
         self.row(range.label, range.tooltip, |ui, label| {
             let mut number = *value as f64;
             let typed = NumberBox {
@@ -442,9 +462,20 @@ impl Panel for Form<'_> {
             RowValue::Sizes(sizes) => self.distribution(key, sizes),
             RowValue::Flag(flag) => self.flag(key, flag),
             RowValue::Text(text) => {
-                let range = range(key, self.diagonal_m);
+                let range = self.range(key);
                 self.text(range.label, range.tooltip, text);
             }
+        }
+    }
+}
+
+/// A form that takes rows for the keys that it has none of.
+struct Rest<'f, 'a>(&'f mut Form<'a>);
+
+impl Panel for Rest<'_, '_> {
+    fn row(&mut self, key: &'static Key, value: RowValue) {
+        if !self.0.shown.contains(&key.name) {
+            Panel::row(self.0, key, value);
         }
     }
 }
@@ -456,4 +487,31 @@ fn another_seed(seed: u64) -> u64 {
         .wrapping_mul(0x5851_f42d_4c95_7f2d);
     let thrown = (mixed >> 33) % 9000 + 1000;
     if thrown == seed { thrown + 1 } else { thrown }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hairline_document::description::Camera;
+
+    #[test]
+    fn the_rest_of_a_table_is_what_has_no_row_yet() {
+        let mut camera = Camera::default();
+        let mut shown = Vec::new();
+        let _ = egui::Context::default().run_ui(egui::RawInput::default(), |ui| {
+            let mut form = Form::new(ui, "camera", 0.3);
+            form.number(Camera::FOV_Y_DEG, &mut camera.fov_y_deg);
+            form.leave_out(&[Camera::EXPOSURE_EV]);
+            form.rest(&mut camera);
+            shown = form.shown;
+        });
+        let keys = [
+            Camera::FOV_Y_DEG,
+            Camera::EXPOSURE_EV,
+            Camera::POSITION_M,
+            Camera::TARGET_M,
+            Camera::UP,
+        ];
+        assert_eq!(shown, keys.map(|key| key.name));
+    }
 }

@@ -31,6 +31,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         grating.center_m = None;
     }
     place_rows(&mut form, &mut grating, index, everywhere_m);
+    form.rest(&mut grating);
     work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {

@@ -44,12 +44,11 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
             form.distribution(Laid::WIDTH_UM, &mut brushed.width_um);
             form.distribution(Laid::DEPTH_NM, &mut brushed.depth_nm);
             form.distribution(Laid::LENGTH_M, &mut brushed.length_m);
-            form.number(PatternAxis::JITTER_DEG, &mut brushed.jitter_deg);
-            form.seed(&mut brushed.seed);
         }
         Layer::Engraved(engraved) => engraved_rows(&mut form, engraved, index),
         Layer::Listed(listed) => file_row(&mut form, &listed.file),
     }
+    form.rest(&mut layer);
     work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {
@@ -146,7 +145,6 @@ fn laid_rows(form: &mut Form, laid: &mut Laid) {
     form.distribution(Laid::LENGTH_M, &mut laid.length_m);
     form.section("Direction and bend");
     laid.pattern.rows(form);
-    form.seed(&mut laid.seed);
 }
 
 fn file_row(form: &mut Form, file: &Path) {
@@ -176,7 +174,6 @@ fn engraved_rows(form: &mut Form, engraved: &mut Engraved, index: usize) {
     form.number(Engraved::LINE_M, &mut engraved.line_m);
     form.distribution(Laid::WIDTH_UM, &mut engraved.width_um);
     form.distribution(Laid::DEPTH_NM, &mut engraved.depth_nm);
-    form.seed(&mut engraved.seed);
 }
 
 /// A number of scratches, or a number on each square metre.

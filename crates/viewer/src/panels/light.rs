@@ -29,6 +29,8 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     if light.kind.sunbeam().is_none() {
         form.flag(Light::VISIBLE, &mut light.visible);
         form.number(Light::RADIANCE, &mut light.radiance);
+    } else {
+        form.leave_out(&[Light::VISIBLE, Light::RADIANCE]);
     }
     form.number(Light::EXPOSURE_EV, &mut light.exposure_ev);
     let texts = [
@@ -48,6 +50,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     cone(&mut form, &mut light);
     doors(&mut form, &mut light);
     picture(&mut form, &mut light, index);
+    form.rest(&mut light);
     work.choose_picture(form.wanted());
     if let Some(change) = form.change() {
         work.drag(&change.label, change.key, |d| {

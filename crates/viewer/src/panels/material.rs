@@ -146,7 +146,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
         }
         _ => material.cover = None,
     }
-    form.number(Material::COHERENCE_UM, &mut material.coherence_um);
+    form.rest(&mut material);
     if let Some(change) = form.change() {
         if name != material.name {
             // Objects call it by its name.

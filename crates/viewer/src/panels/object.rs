@@ -47,6 +47,7 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     form.vector(Object::ROTATION_DEG, &mut object.rotation_deg);
     scale(&mut form, &mut object.scale);
     surface_rows(&mut form, &mut object);
+    form.rest(&mut object);
     if let Some(change) = form.change() {
         if name != object.name {
             work.apply("Rename object", |d, _| objects::rename(d, index, &name));
