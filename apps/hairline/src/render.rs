@@ -27,7 +27,7 @@ use work::Work;
 pub fn run(arguments: &cli::Render) -> Result<(), Failure> {
     let method = arguments.method.method()?;
     let mut task = task(arguments, &method)?;
-    let motion = motion::of(&arguments.sequence, arguments.time)?;
+    let motion = motion::from_flags(&arguments.sequence, arguments.time)?;
     // Before the work: nobody should wait for a picture that then has no place to go.
     let target = Target::check(arguments, motion.as_ref())?;
     let labels = target.check_labels(arguments)?;

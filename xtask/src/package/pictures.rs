@@ -45,47 +45,65 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
         ("/test/", tests),
     ];
     let page = format!("/test/page.html?scenes={}", SCENES.join(","));
-    let drawn = answers(folders, &page)?;
+    let sent = answers(folders, &page)?;
     for (name, worn, bare) in &pictures {
-        let find = |what: &str| {
-            let wanted = format!("{name}/{what}");
-            let found = drawn.iter().find(|(path, _)| *path == wanted);
-            let (_, bytes) = found.with_context(|| format!("the page sent no {wanted}"))?;
-            Ok::<_, anyhow::Error>(bytes.as_slice())
+        let drawn = Drawn {
+            name,
+            sent: &sent,
+            inner: inner_pixels(worn),
         };
-        let timing = String::from_utf8_lossy(find("times")?).into_owned();
-        let (three_worn, three_bare) = (colours(find("worn")?), colours(find("bare")?));
-        let save = |what: &str, rgb: &[[f32; 3]]| -> anyhow::Result<()> {
-            let bytes: Vec<u8> = rgb.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-            write(
-                &output.join("pages").join(name).join(format!("{what}.f32")),
-                &bytes,
-            )
-        };
-        // Channels outside of the gamut are below 0, which three.js cuts.
-        let (beauty, base) = (cut(worn), cut(bare));
-        save("hairline", &beauty)?;
-        save("three", &three_worn)?;
-        let inner = inner_pixels(worn);
-        let difference = |a: &[[f32; 3]], b: &[[f32; 3]]| -> Vec<[f32; 3]> {
-            let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
-            a.iter().zip(b).map(minus).collect()
-        };
+        let (three, ours) = (drawn.colours("worn")?, cut(worn));
+        let pages = output.join("pages").join(name);
+        save(&pages.join("hairline.f32"), &ours)?;
+        save(&pages.join("three.f32"), &three)?;
         ensure!(
-            find("told")?.is_empty(),
+            drawn.bytes("told")?.is_empty(),
             "{name}: the file has more than is drawn"
         );
-        // The same by a file with its scratches, by one with their seeds, and by one whose scratches nobody reads.
-        if let Ok(of_file) = find("file") {
-            let of_file = colours(of_file);
-            let off = error(&of_file, &three_worn, &inner);
+        drawn.check_files(&three)?;
+        drawn.check_faults(&ours)?;
+        drawn.check_pictures([&three, &drawn.colours("bare")?], [&ours, &cut(bare)])?;
+    }
+    Ok(())
+}
+
+/// What the page sent of a scene.
+struct Drawn<'a> {
+    name: &'static str,
+    sent: &'a [(String, Vec<u8>)],
+    /// Pixels that are compared.
+    inner: Vec<usize>,
+}
+
+impl Drawn<'_> {
+    fn bytes(&self, what: &str) -> anyhow::Result<&[u8]> {
+        let wanted = format!("{}/{what}", self.name);
+        let found = self.sent.iter().find(|(path, _)| *path == wanted);
+        let (_, bytes) = found.with_context(|| format!("the page sent no {wanted}"))?;
+        Ok(bytes)
+    }
+
+    fn colours(&self, what: &str) -> anyhow::Result<Vec<[f32; 3]>> {
+        self.bytes(what).map(colours)
+    }
+
+    fn error(&self, a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
+        error(a, b, &self.inner)
+    }
+
+    /// The same by a file with its scratches, by one with their seeds, and by one whose scratches nobody reads. `by_hand` is the picture of what
+    /// was set by hand.
+    fn check_files(&self, by_hand: &[[f32; 3]]) -> anyhow::Result<()> {
+        let Self { name, .. } = self;
+        if let Ok(of_file) = self.colours("file") {
+            let off = self.error(&of_file, by_hand);
             println!(
                 "three.js, {name}: a file, against what was set by hand: {:.4} %",
                 100.0 * off
             );
             ensure!(off < FILE_LIMIT, "{name}: the file is {off} off");
-            if let Ok(of_seeds) = find("seeds") {
-                let off = error(&colours(of_seeds), &of_file, &inner);
+            if let Ok(of_seeds) = self.colours("seeds") {
+                let off = self.error(&of_seeds, &of_file);
                 println!(
                     "three.js, {name}: laid by its seeds, against the file: {:.4} %",
                     100.0 * off
@@ -93,41 +111,50 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 ensure!(off < FILE_LIMIT, "{name}: the seeds are {off} off");
             }
         }
-        if let Ok(plain) = find("plain") {
-            let off = error(&colours(plain), &three_worn, &inner);
-            let has_none = off > 10.0 * FILE_LIMIT;
+        if let Ok(plain) = self.colours("plain") {
+            let has_none = self.error(&plain, by_hand) > 10.0 * FILE_LIMIT;
             ensure!(has_none, "{name}: a file without the plug-in has scratches");
         }
+        Ok(())
+    }
+
+    /// Pictures with a fault, which must differ from Hairline's.
+    fn check_faults(&self, ours: &[[f32; 3]]) -> anyhow::Result<()> {
+        let Self { name, .. } = self;
         for (sent, what) in [
             ("turned", "an environment that is turned by 5 degrees"),
             ("unmasked", "gratings without their masks"),
             ("swapped", "gratings along the other texture coordinate"),
         ] {
-            if let Ok(other) = find(sent) {
-                let off = error(&colours(other), &beauty, &inner);
+            if let Ok(faulty) = self.colours(sent) {
+                let off = self.error(&faulty, ours);
                 println!("three.js, {name}: {what}: {:.1} %", 100.0 * off);
                 ensure!(off > 4.0 * LIMIT, "{name}: {what} is not seen");
             }
         }
+        Ok(())
+    }
+
+    /// Pictures with scratches and without, of three.js and of Hairline.
+    fn check_pictures(
+        &self,
+        [three_worn, three_bare]: [&[[f32; 3]]; 2],
+        [worn, bare]: [&[[f32; 3]]; 2],
+    ) -> anyhow::Result<()> {
+        let Self { name, .. } = self;
+        let changes = self.error(&difference(three_worn, three_bare), &difference(worn, bare));
         let mut errors = vec![
-            ("picture", error(&three_worn, &beauty, &inner)),
-            ("without scratches", error(&three_bare, &base, &inner)),
-            (
-                "what scratches change",
-                error(
-                    &difference(&three_worn, &three_bare),
-                    &difference(&beauty, &base),
-                    &inner,
-                ),
-            ),
+            ("picture", self.error(three_worn, worn)),
+            ("without scratches", self.error(three_bare, bare)),
+            ("what scratches change", changes),
         ];
         for (sent, what) in [
             ("instanced", "as an instance"),
             ("skinned", "as a skin"),
             ("faceted", "without tangents"),
         ] {
-            if let Ok(other) = find(sent) {
-                errors.push((what, error(&colours(other), &beauty, &inner)));
+            if let Ok(other) = self.colours(sent) {
+                errors.push((what, self.error(&other, worn)));
             }
         }
         for (what, error) in &errors {
@@ -136,6 +163,7 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 100.0 * error
             );
         }
+        let timing = String::from_utf8_lossy(self.bytes("times")?);
         println!("three.js, {name}: {timing}");
         for (what, error) in errors {
             ensure!(
@@ -144,8 +172,19 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
                 100.0 * error
             );
         }
+        Ok(())
     }
-    Ok(())
+}
+
+fn difference(a: &[[f32; 3]], b: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let minus = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| a[c] - b[c]);
+    a.iter().zip(b).map(minus).collect()
+}
+
+/// Writes a picture for whoever wants to look at it: three f32 a pixel.
+fn save(path: &Path, rgb: &[[f32; 3]]) -> anyhow::Result<()> {
+    let bytes: Vec<u8> = rgb.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    write(path, &bytes)
 }
 
 /// Writes what the pages of all scenes show, and returns the scenes.
@@ -279,7 +318,7 @@ fn light(light: &Light) -> Value {
     written
 }
 
-/// The picture as an unsigned one.
+/// The picture without channels below 0, those outside of the gamut, which three.js cuts.
 fn cut(image: &Image) -> Vec<[f32; 3]> {
     let rgb = image.layer(Layer::Beauty);
     rgb.iter().map(|rgb| rgb.map(|c| c.max(0.0))).collect()

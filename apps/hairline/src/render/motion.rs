@@ -13,7 +13,10 @@ use crate::cli::SequenceFlags;
 ///
 /// # Errors
 /// [`Failure::Input`] where they contradict one another.
-pub fn of(flags: &SequenceFlags, times_s: Option<[f64; 2]>) -> Result<Option<Motion>, Failure> {
+pub fn from_flags(
+    flags: &SequenceFlags,
+    times_s: Option<[f64; 2]>,
+) -> Result<Option<Motion>, Failure> {
     let times_s = times_s.filter(|[from, to]| from != to);
     let refuse = |what: &str| Err(Failure::Input(anyhow!("{what}")));
     let Some(frames) = flags.frames else {

@@ -26,11 +26,12 @@ pub(super) fn show(ui: &mut Ui, work: &mut Workspace, index: usize) {
     let mut shines = !light.hidden;
     form.toggle("Shines", "Whether it gives light", &mut shines);
     light.hidden = !shines;
-    if light.kind.sunbeam().is_none() {
-        form.flag(Light::VISIBLE, &mut light.visible);
-        form.number(Light::RADIANCE, &mut light.radiance);
-    } else {
-        form.leave_out(&[Light::VISIBLE, Light::RADIANCE]);
+    match light.kind.sunbeam() {
+        Some(_) => form.leave_out(&[Light::VISIBLE, Light::RADIANCE]),
+        None => {
+            form.flag(Light::VISIBLE, &mut light.visible);
+            form.number(Light::RADIANCE, &mut light.radiance);
+        }
     }
     form.number(Light::EXPOSURE_EV, &mut light.exposure_ev);
     let texts = [
