@@ -108,6 +108,11 @@ impl Error {
     pub fn right(&self) -> &str {
         &self.right
     }
+
+    /// Both, without the place and the key.
+    pub fn found_and_right(&self) -> String {
+        format!("{}; {}", self.found, self.right)
+    }
 }
 
 /// A length to three digits, in the unit that reads best.
@@ -134,6 +139,6 @@ impl fmt::Display for Error {
         if !self.key.is_empty() {
             write!(f, "{}: ", self.key)?;
         }
-        write!(f, "{}; {}", self.found, self.right)
+        f.write_str(&self.found_and_right())
     }
 }

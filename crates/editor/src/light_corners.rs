@@ -81,7 +81,7 @@ fn reshape(
     };
     reshaped
         .check()
-        .map_err(|flaw| ActionError::Shape(format!("{}; {}", flaw.found(), flaw.right())))?;
+        .map_err(|flaw| ActionError::Shape(flaw.found_and_right()))?;
     *light = reshaped;
     Ok(())
 }

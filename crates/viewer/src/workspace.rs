@@ -103,7 +103,7 @@ impl Workspace {
         match flaw(&changed) {
             // An error that was there before is not this change's.
             Some(error) if flaw(before).as_ref() != Some(&error) => {
-                let why = format!("{label}: {}; {}.", error.found(), error.right());
+                let why = format!("{label}: {}.", error.found_and_right());
                 self.notices.error("change", why);
             }
             _ => {
