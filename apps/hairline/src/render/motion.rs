@@ -93,7 +93,7 @@ mod tests {
                 zoom: Some(zoom),
                 ..SequenceFlags::default()
             };
-            of(&flags, None).unwrap().unwrap()
+            from_flags(&flags, None).unwrap().unwrap()
         };
         assert!(check(&zoomed([1.0, 1e3]), &camera).is_ok());
         for zoom in [[1.0, 1e6], [1e-6, 1.0]] {
