@@ -16,8 +16,12 @@ def _is_stroke_source(_, candidate):
     return candidate.type in {"CURVE", "GPENCIL", "GREASEPENCIL"}
 
 
+def _title(key):
+    return key.replace("_", " ").capitalize() if len(key) > 2 else key.upper()
+
+
 def _choice(items, name, default=None):
-    items = [(key, key.replace("_", " ").capitalize() if len(key) > 2 else key.upper(), text) for key, text in items.items()]
+    items = [(key, _title(key), text) for key, text in items.items()]
     return EnumProperty(items=items, name=name, default=default or items[0][0], **_CHANGES)
 
 
@@ -97,7 +101,7 @@ class HairlineSurface(bpy.types.PropertyGroup):
         name="Measured metal",
         description="The measured refractive index of a metal in the place of the base colour",
         items=[("NONE", "None", "The base colour of the material")]
-        + [(metal, metal.capitalize(), f"Measured n and k of {metal}") for metal in optics.metals()],
+        + [(metal, _title(metal), f"Measured n and k of {metal}") for metal in optics.metals()],
         **_CHANGES,
     )
 

@@ -192,7 +192,7 @@ fn contents(loaded: &Loaded) -> Contents {
         strength: Strength::from_light(light),
         hidden: light.hidden,
     });
-    let up = scene.camera.up;
+    let up = description.camera.world_up();
     let environment = scene.environment.as_ref().map(|environment| Environment {
         size_px: environment.background().size_px,
         lamps: environment
@@ -289,7 +289,7 @@ fn left_out(loaded: &Loaded) -> Vec<LeftOut> {
     models.flat_map(of_model).collect()
 }
 
-/// A lamp of an environment: a sphere so far away that it stands in one direction.
+/// A lamp of an environment: a sphere so far away that it stands in one direction. The environment's top is `up`, unit.
 fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
     let LightShape::Sphere { center_m, radius_m } = &sun.shape else {
         return None;
@@ -297,17 +297,10 @@ fn sun(sun: &Light, up: DVec3) -> Option<Sun> {
     let direction = center_m.normalize();
     Some(Sun {
         direction: direction.into(),
-        elevation_deg: elevation_deg(direction, up),
+        elevation_deg: direction.dot(up).asin().to_degrees(),
         radius_deg: (radius_m / center_m.length()).asin().to_degrees(),
         radiance: sun.radiance,
     })
-}
-
-/// The environment's top is the axis nearest to the camera's up.
-fn elevation_deg(direction: DVec3, up: DVec3) -> f64 {
-    let axis = DVec3::AXES[up.abs().max_position()];
-    let top = axis * axis.dot(up).signum();
-    direction.dot(top).asin().to_degrees()
 }
 
 fn write(contents: &Contents, out: &mut String) -> fmt::Result {

@@ -314,6 +314,24 @@ fn info_tells_what_is_in_a_scene() {
 }
 
 #[test]
+fn info_tells_elevations_above_the_worlds_horizon() {
+    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/maps/evening.hdr");
+    let elevation_deg = |picture_up: [f64; 3]| {
+        let plate = bare_plate().up(picture_up);
+        let text = plate.part(&format!("[environment]\nfile = {map:?}\n"));
+        let text = (text.to_string()).replacen("[camera]\n", "[camera]\nworld_up = \"z\"\n", 1);
+        let folder = folder_with("s.toml", &text);
+        let json = stdout_of(&hairline(folder.path(), "info s.toml --json").success());
+        let contents: serde_json::Value = serde_json::from_str(&json).unwrap();
+        contents["environment"]["lamps"][0]["elevation_deg"].as_f64()
+    };
+    let upright = elevation_deg([0.0, 0.0, 1.0]);
+    assert!(upright.is_some());
+    // A camera on its side.
+    assert_eq!(elevation_deg([1.0, 0.0, 0.0]), upright);
+}
+
+#[test]
 fn scenes_come_by_stdin_and_flags_change_them() {
     let folder = tempfile::tempdir().unwrap();
     let render = |arguments: &str| {

@@ -228,6 +228,11 @@ impl LightKind {
         }
     }
 
+    /// Whether it may have barn doors: it faces a target, and shines to that side alone.
+    pub fn takes_barn_doors(&self) -> bool {
+        self.width_direction().is_some() && !self.is_two_sided()
+    }
+
     /// The unit direction that the light of a sun goes in; none of others.
     pub fn sunbeam(&self) -> Option<DVec3> {
         match self {

@@ -209,10 +209,7 @@ impl Light {
     }
 
     fn check_doors(&self, key: &str) -> Check {
-        if self.barn_doors_deg.is_none() {
-            return Ok(());
-        }
-        if self.kind.width_direction().is_none() || self.kind.is_two_sided() {
+        if self.barn_doors_deg.is_some() && !self.kind.takes_barn_doors() {
             return Err(Error::new(
                 format!("{key}.barn_doors_deg"),
                 format!("found barn doors of a {}", self.kind.title()),

@@ -146,21 +146,9 @@ fn everything() -> Description {
         ],
         ..Scratches::new("o", Layer::Brushed(Brushed::default()))
     });
-    let metals = [
-        Metal::Iron,
-        Metal::StainlessSteel,
-        Metal::Aluminium,
-        Metal::Copper,
-        Metal::Gold,
-        Metal::Silver,
-        Metal::Brass,
-        Metal::Chromium,
-        Metal::Titanium,
-        Metal::Nickel,
-    ];
-    let kinds = metals
-        .into_iter()
-        .map(|m| MaterialKind::Metal(MetalColor::Measured(m)))
+    let kinds = Metal::ALL
+        .iter()
+        .map(|metal| MaterialKind::Metal(MetalColor::Measured(*metal)))
         .chain([
             MaterialKind::Metal(MetalColor::Color([0.25, 0.5, 1.0])),
             MaterialKind::Dielectric {

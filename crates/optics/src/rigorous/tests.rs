@@ -119,7 +119,7 @@ fn no_light_is_made() {
     for _ in 0..60 {
         let pitch_um = between(0.3, 2.0);
         let width_um = between(0.05, 0.95) * pitch_um;
-        let metal = Metal::ALL[between(0.0, 9.99) as usize];
+        let metal = Metal::ALL[between(0.0, Metal::ALL.len() as f64) as usize];
         let nm = between(380.0, 780.0);
         let (n, k) = metal.n_k(nm);
         let relief = Relief::lamellar(

@@ -108,13 +108,9 @@ fn picture(form: &mut Form, light: &mut Light, index: usize) {
     );
 }
 
-/// Flaps beside a disk or a rectangle; a light whose two sides shine has none.
+/// Flaps beside a light that takes them.
 fn doors(form: &mut Form, light: &mut Light) {
-    let has_target = matches!(
-        light.kind,
-        LightKind::Disk { .. } | LightKind::Rectangle { .. }
-    );
-    if !has_target || light.kind.is_two_sided() {
+    if !light.kind.takes_barn_doors() {
         light.barn_doors_deg = None;
         return;
     }
