@@ -12,7 +12,7 @@ use hairline_optics::section::Section;
 use hairline_scene::{Base, Light, LightShape, Scene};
 use serde_json::{Value, json};
 
-use super::browser::{Folders, answers};
+use super::browser::{Answer, Folders, answers};
 use super::files::{install, write};
 
 /// The scenes in packages/hairline-shaders/test.
@@ -70,7 +70,7 @@ pub(super) fn run(root: &Path, output: &Path) -> anyhow::Result<()> {
 /// What the page sent of a scene.
 struct Drawn<'a> {
     name: &'static str,
-    sent: &'a [(String, Vec<u8>)],
+    sent: &'a [Answer],
     /// Pixels that are compared.
     inner: Vec<usize>,
 }
@@ -87,8 +87,16 @@ impl Drawn<'_> {
         self.bytes(what).map(colours)
     }
 
+    /// The rms of the difference over that of the second.
     fn error(&self, a: &[[f32; 3]], b: &[[f32; 3]]) -> f64 {
-        error(a, b, &self.inner)
+        let (mut off, mut all) = (0.0, 0.0);
+        for &i in &self.inner {
+            for (x, y) in a[i].iter().zip(&b[i]) {
+                off += f64::from(x - y).powi(2);
+                all += f64::from(*y).powi(2);
+            }
+        }
+        (off / all).sqrt()
     }
 
     /// The same by a file with its scratches, by one with their seeds, and by one whose scratches nobody reads. `by_hand` is the picture of what
@@ -355,16 +363,4 @@ fn inner_pixels(image: &Image) -> Vec<usize> {
         })
     };
     (0..width * height).filter(is_inner).collect()
-}
-
-/// The rms of the difference over that of the second.
-fn error(a: &[[f32; 3]], b: &[[f32; 3]], pixels: &[usize]) -> f64 {
-    let (mut off, mut all) = (0.0, 0.0);
-    for &i in pixels {
-        for (x, y) in a[i].iter().zip(&b[i]) {
-            off += f64::from(x - y).powi(2);
-            all += f64::from(*y).powi(2);
-        }
-    }
-    (off / all).sqrt()
 }

@@ -87,6 +87,7 @@ fn places(form: &mut Form, place: &mut LayerPlaces, index: usize) {
     );
     tiles(form, place);
     shells(form, place);
+    form.rest(place);
 }
 
 /// Control for the mapping of the pictures.

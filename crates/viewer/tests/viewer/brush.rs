@@ -367,7 +367,7 @@ fn a_stroke_that_hardly_shows_is_marked_and_told_of() {
     draw(&mut harness);
     common::key(&mut harness, egui::Key::V);
     assert_eq!(marks(&harness), 0);
-    // What is undone is told of no more.
+    // The message goes with its stroke.
     common::key(&mut harness, egui::Key::B);
     draw(&mut harness);
     harness.state_mut().document_mut().undo();
