@@ -21,11 +21,6 @@ pub fn center(light: &Light) -> DVec3 {
     }
 }
 
-/// The unit normal of the side on which a flat light shines; none for others.
-pub fn facing(light: &Light) -> Option<DVec3> {
-    vector_area_m2(&light.kind.corners_m()).try_normalize()
-}
-
 /// Moves a light; a sun stays where it is.
 pub fn translate(light: &mut Light, delta_m: DVec3) {
     each_point(light, |point| point + delta_m);
@@ -128,7 +123,7 @@ pub fn set_distance_m(light: &mut Light, point_m: DVec3, distance_m: f64) {
 
 /// Turns a flat light about its middle, by the shortest way, until it faces a point. Others stay as they are.
 fn face(light: &mut Light, point_m: DVec3) {
-    let Some(normal) = facing(light) else {
+    let Some(normal) = light.kind.axis() else {
         return;
     };
     let Some(towards) = (point_m - center(light)).try_normalize() else {

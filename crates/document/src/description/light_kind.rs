@@ -200,21 +200,26 @@ impl LightKind {
         hairline_scene::vector_area_m2(&self.corners_m()).try_normalize()
     }
 
-    /// Unit direction of the width of a light that faces a target, to the right as seen from there.
-    pub(super) fn width_direction(&self) -> Option<DVec3> {
-        let (center_m, target_m, rotation_deg) = match self {
+    /// Middle, target and rotation in degrees of a light that faces a target.
+    fn aim(&self) -> Option<([f64; 3], [f64; 3], f64)> {
+        match *self {
             Self::Disk {
                 center_m, target_m, ..
-            } => (center_m, target_m, 0.0),
+            } => Some((center_m, target_m, 0.0)),
             Self::Rectangle {
                 center_m,
                 target_m,
                 rotation_deg,
                 ..
-            } => (center_m, target_m, *rotation_deg),
-            _ => return None,
-        };
-        let [across, _] = plane(*center_m, *target_m, rotation_deg);
+            } => Some((center_m, target_m, rotation_deg)),
+            _ => None,
+        }
+    }
+
+    /// Unit direction of the width of a light that faces a target, to the right as seen from there.
+    pub(super) fn width_direction(&self) -> Option<DVec3> {
+        let (center_m, target_m, rotation_deg) = self.aim()?;
+        let [across, _] = plane(center_m, target_m, rotation_deg);
         Some(across)
     }
 
@@ -230,7 +235,7 @@ impl LightKind {
 
     /// Whether it may have barn doors: it faces a target, and shines to that side alone.
     pub fn takes_barn_doors(&self) -> bool {
-        self.width_direction().is_some() && !self.is_two_sided()
+        self.aim().is_some() && !self.is_two_sided()
     }
 
     /// The unit direction that the light of a sun goes in; none of others.
@@ -257,13 +262,10 @@ impl LightKind {
 
     /// Refuses shapes that are none.
     fn check_shape(&self, key: &str) -> Check {
+        if let Some((center_m, target_m, _)) = self.aim() {
+            return aimed(key, center_m, target_m);
+        }
         match self {
-            Self::Disk {
-                center_m, target_m, ..
-            }
-            | Self::Rectangle {
-                center_m, target_m, ..
-            } => aimed(key, *center_m, *target_m),
             Self::Tube { ends_m: [a, b], .. }
                 if DVec3::from(*a).distance(DVec3::from(*b)) < NEAREST_TARGET_M =>
             {

@@ -67,7 +67,7 @@ impl Body {
             moves: true,
             turns: !matches!(light.kind, LightKind::Sphere { .. }) || light.cone.is_some(),
             resizes: true,
-            normal: place_light::facing(light),
+            normal: light.kind.axis(),
             corners_m: light.kind.vertices_m().iter().map(|&v| v.into()).collect(),
             spot: LightCone::from_light(light),
         }

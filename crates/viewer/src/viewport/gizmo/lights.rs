@@ -172,7 +172,7 @@ fn circle(lens: &Lens, center_m: DVec3, radius_m: f64) -> Vec<DVec3> {
 fn tick(light: &Light, lens: &Lens) -> Option<Pos2> {
     let center_m = place_light::center(light);
     let length_m = lens.m_per_point(center_m) * f64::from(TICK);
-    lens.project(center_m + place_light::facing(light)? * length_m)
+    lens.project(center_m + light.kind.axis()? * length_m)
 }
 
 #[cfg(test)]
