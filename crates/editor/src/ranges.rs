@@ -3,7 +3,7 @@
 
 use std::ops::RangeInclusive;
 
-use hairline_document::schema::{Control, Form, Key};
+use hairline_document::schema::{Bounds, Control, Form, Key};
 
 use crate::quantity::Unit;
 
@@ -15,7 +15,7 @@ pub struct Range {
     /// Ends of the slider: good looks lie within.
     pub slider: RangeInclusive<f64>,
     /// Values that may be typed.
-    pub hard: RangeInclusive<f64>,
+    pub bounds: Bounds,
     /// Whether equal ways of the slider are equal factors.
     pub logarithmic: bool,
     /// Unit of the number.
@@ -62,13 +62,18 @@ fn control_range(key: &Key, control: Option<&Control>, diagonal_m: f64) -> Range
     if control.unit == "mm" {
         (least, most) = (1e-3 * least, 1e-3 * most);
     }
+    let bounds = match control.bounds {
+        // Their ends do not tell all of them.
+        exact @ (Bounds::Above0(_) | Bounds::Factor(..)) => exact,
+        _ => Bounds::Within(least, most),
+    };
     let size = d.powi(control.slider.power_of_size);
     // An object may be larger than what a scratch can be.
     let end = |end: f64| (end * size).clamp(least, most);
     Range {
         label: control.label,
         slider: end(control.slider.from)..=end(control.slider.to),
-        hard: least..=most,
+        bounds,
         logarithmic: control.slider.is_logarithmic,
         unit: Unit::named(control.unit),
         is_whole,
@@ -99,7 +104,8 @@ mod tests {
             for (name, range) in all(d) {
                 let (from, to) = (*range.slider.start(), *range.slider.end());
                 assert!(from < to, "{name} at {d}: {range:?}");
-                assert!(range.hard.contains(&from) && range.hard.contains(&to));
+                let may_be_typed = range.bounds.ends();
+                assert!(may_be_typed.contains(&from) && may_be_typed.contains(&to));
                 assert!(!range.logarithmic || from > 0.0, "{name}");
             }
         }

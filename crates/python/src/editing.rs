@@ -59,7 +59,7 @@ fn control(range: Range) -> Control {
         range.label,
         unit(range.unit),
         ends(range.slider),
-        ends(range.hard),
+        ends(range.bounds.ends()),
         range.logarithmic,
         range.is_whole,
         range.tooltip,

@@ -10,12 +10,12 @@ use super::distribution::Distribution;
 use super::keyed::Keyed;
 use super::laid::{Pattern, PatternAxis};
 use super::place::{MIDDLE, RADII, TILE};
-use super::ranges::{Check, check_radii, check_range};
+use super::ranges::{Check, check_radii};
 use super::table::Table;
 use super::toml_value::{Read, Value};
 use super::values::named;
 use crate::error::Error;
-use crate::schema::Entry;
+use crate::schema::{Bounds, Entry};
 
 /// `[[grating]]`: grooves side by side, nearer to one another than a pixel can show. They interfere, as those of a compact disc do.
 #[derive(Clone, Debug, PartialEq, Keyed)]
@@ -228,7 +228,7 @@ impl Grating {
     /// Refuses grooves wider than their pitch, and keys without what they belong to.
     fn check_companions(&self, key: &str) -> Check {
         let up_to_the_pitch = |name: &str, value: f64| {
-            check_range(&format!("{key}.{name}"), value, 0.0..=self.pitch_um)
+            Bounds::Within(0.0, self.pitch_um).check(&format!("{key}.{name}"), value)
         };
         up_to_the_pitch(Self::WIDTH_UM.name, self.width_um)?;
         up_to_the_pitch(Self::JITTER_UM.name, self.jitter_um)?;
@@ -385,7 +385,7 @@ mod tests {
             ),
             (
                 format!("{DISC}spacing_m = 0").replace("circular", "swirl"),
-                "test:8: grating[0].spacing_m: found 0; must be greater than 0",
+                "test:8: grating[0].spacing_m: found 0; must be from 1e-5 to 1000",
             ),
             (
                 format!("{DISC}spacing_m = 0.01"),

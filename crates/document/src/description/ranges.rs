@@ -1,6 +1,5 @@
 //! Checks of numbers against the bounds of their keys.
 
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use hairline_optics::section::Section;
@@ -122,40 +121,29 @@ impl Bounds {
     /// Refuses a number beyond them; `key` is its path.
     pub(super) fn check(self, key: &str, number: f64) -> Check {
         finite(key, number)?;
-        let must = |is_right: bool, right: &str| match is_right {
-            true => Ok(()),
-            false => Err(Error::new(key, found(number), right)),
-        };
-        match self {
-            Self::Any => Ok(()),
-            Self::AtLeast0 => must(number >= 0.0, "must be 0 or greater"),
-            Self::Within(least, most) => check_range(key, number, least..=most),
-            Self::Above0(most) => {
-                must(number > 0.0, "must be greater than 0")?;
-                check_range(key, number, 0.0..=most)
-            }
-            Self::Size => {
-                must(number > 0.0, "must be greater than 0")?;
-                check_range(key, number, SMALLEST_M..=LARGEST_M)
-            }
-            Self::Factor(least, most) => must(
-                (least..=most).contains(&number.abs()),
-                &format!("its size must be between {least:e} and {most:e}"),
-            ),
-            Self::Direction => check_range(key, number, -1e6..=1e6),
+        match self.must(number, written) {
+            None => Ok(()),
+            Some(right) => Err(Error::new(key, found(number), right)),
         }
     }
-}
 
-pub(super) fn check_range(key: &str, value: f64, range: RangeInclusive<f64>) -> Check {
-    let (least, most) = (*range.start(), *range.end());
-    match range.contains(&value) {
-        true => Ok(()),
-        false => Err(Error::new(
-            key,
-            found(value),
-            format!("must be from {} to {}", written(least), written(most)),
-        )),
+    /// What a number beyond them must be, none for one within. `write` writes an end, in the unit that its reader has.
+    pub fn must(self, number: f64, write: impl Fn(f64) -> String) -> Option<String> {
+        let from_to = |least: f64, most: f64| match (least..=most).contains(&number) {
+            true => None,
+            false => Some(format!("must be from {} to {}", write(least), write(most))),
+        };
+        match self {
+            Self::Any => None,
+            Self::AtLeast0 => (number < 0.0).then(|| "must be 0 or greater".to_owned()),
+            Self::Within(least, most) => from_to(least, most),
+            Self::Above0(most) => (!(number > 0.0 && number <= most))
+                .then(|| format!("must be greater than 0 and at most {}", write(most))),
+            Self::Size => from_to(SMALLEST_M, LARGEST_M),
+            Self::Factor(least, most) => (!(least..=most).contains(&number.abs()))
+                .then(|| format!("must be from {least:e} to {most:e}, or as much below 0")),
+            Self::Direction => from_to(-1e6, 1e6),
+        }
     }
 }
 

@@ -245,8 +245,8 @@ fn missing_keys_and_broken_grammar() {
 #[test]
 fn sizes_that_are_negative_or_not_finite() {
     for (value, found) in [
-        ("-0.1", "found -0.1; must be greater than 0"),
-        ("0", "found 0; must be greater than 0"),
+        ("-0.1", "found -0.1; must be from 1e-5 to 1000"),
+        ("0", "found 0; must be from 1e-5 to 1000"),
         ("nan", "found NaN; must be finite"),
         ("inf", "found inf; must be finite"),
         ("-inf", "found -inf; must be finite"),
@@ -259,7 +259,7 @@ fn sizes_that_are_negative_or_not_finite() {
     check(&[
         (
             &object("{ plane = { size_m = [1.0, -1.0] } }"),
-            "plate.toml:13: object[0].shape.plane.size_m[1]: found -1; must be greater than 0",
+            "plate.toml:13: object[0].shape.plane.size_m[1]: found -1; must be from 1e-5 to 1000",
         ),
         (
             &object("{ lathe = { profile_m = [[0.0, 0.0], [-0.1, 0.0]] } }"),
@@ -307,7 +307,7 @@ fn sizes_that_are_negative_or_not_finite() {
         ),
         (
             &object("{ cylinder = { radius_m = 0.1, height_m = 0, rounding_m = -1 } }"),
-            "plate.toml:13: object[0].shape.cylinder.height_m: found 0; must be greater than 0",
+            "plate.toml:13: object[0].shape.cylinder.height_m: found 0; must be from 1e-5 to 1000",
         ),
         (
             &object("{ cylinder = { radius_m = 0.1, height_m = 0.3, rounding_m = 0.12 } }"),
@@ -327,7 +327,7 @@ fn sizes_that_are_negative_or_not_finite() {
         ),
         (
             &format!("{}scale = 0", disk()),
-            "plate.toml:15: object[0].scale: found 0; its size must be between 1e-6 and 1e6",
+            "plate.toml:15: object[0].scale: found 0; must be from 1e-6 to 1e6, or as much below 0",
         ),
         (
             &format!("{}rotation_deg = [0, nan, 0]", disk()),
@@ -344,7 +344,7 @@ fn sizes_that_are_negative_or_not_finite() {
     ]);
     assert_eq!(
         light("kind = \"sphere\"\ncenter_m = [0, 0, 0]\nradius_m = -1"),
-        "plate.toml:18: light[0].radius_m: found -1; must be greater than 0"
+        "plate.toml:18: light[0].radius_m: found -1; must be from 1e-5 to 1000"
     );
     assert_eq!(
         light("kind = \"disk\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 1]\nradius_m = 1"),
@@ -358,7 +358,7 @@ fn sizes_that_are_negative_or_not_finite() {
         light(
             "kind = \"rectangle\"\ncenter_m = [0, 0, 1]\ntarget_m = [0, 0, 0]\nwidth_m = 1\nheight_m = 0"
         ),
-        "plate.toml:20: light[0].height_m: found 0; must be greater than 0"
+        "plate.toml:20: light[0].height_m: found 0; must be from 1e-5 to 1000"
     );
     assert_eq!(
         light("kind = \"sphere\"\ncenter_m = [0, 0, 1]\nradius_m = 1\ncone_deg = 40"),
@@ -479,7 +479,7 @@ fn sizes_that_are_negative_or_not_finite() {
     );
     assert_eq!(
         scratches("pattern = \"random\"\ncount = 5\nwidth_um = -2"),
-        "plate.toml:19: scratches[0].width_um: found -2; must be greater than 0"
+        "plate.toml:19: scratches[0].width_um: found -2; must be greater than 0 and at most 100"
     );
     assert_eq!(
         scratches("pattern = \"random\"\ncount = 5\ndepth_nm = { mean = 200, spread = -0.1 }"),
@@ -713,7 +713,7 @@ fn strokes() {
         ),
         (
             drawn("points_m = [[0, 0, 0]], radius_m = 0, erase = true"),
-            "plate.toml:19: scratches[0].strokes[0].radius_m: found 0; must be greater than 0",
+            "plate.toml:19: scratches[0].strokes[0].radius_m: found 0; must be from 1e-5 to 1000",
         ),
         (
             drawn("points_m = [[0, 0, 0]], radius_m = 0.01, density_per_m = 1, depth = 0"),

@@ -329,7 +329,7 @@ fn a_wrong_file_is_refused_with_its_line() {
             "radius_m = 0.1",
             "radius_m = -0.1",
             Some(16),
-            "must be greater than 0",
+            "must be from 1e-5 to 1000",
         ),
         (
             "material = \"steel\"",

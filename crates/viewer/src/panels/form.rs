@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use egui::{Response, Ui};
 use hairline_document::Description;
 use hairline_document::description::{Distribution, Laid, Panel, RowValue, Rows, Shape};
-use hairline_document::schema::{Form as Spelling, Key};
+use hairline_document::schema::{Bounds, Form as Spelling, Key};
 use hairline_editor::DragKey;
 use hairline_editor::actions::pictures::PictureOf;
 use hairline_editor::quantity::Unit;
@@ -210,7 +210,7 @@ impl<'a> Form<'a> {
         let range = Range {
             label,
             slider: 0.0..=1.0,
-            hard: 0.0..=1.0,
+            bounds: Bounds::Within(0.0, 1.0),
             logarithmic: false,
             unit: Unit::None,
             is_whole: false,

@@ -56,7 +56,7 @@ impl NumberBox<'_> {
             span / 400.0
         };
         let mut drag = DragValue::new(value)
-            .range(range.hard.clone())
+            .range(range.bounds.ends())
             // A file may hold more than may be typed: to look at it changes nothing.
             .clamp_existing_to_range(false)
             .speed(speed)
@@ -96,7 +96,6 @@ impl NumberBox<'_> {
 
     /// Reads a typed number that the scene allows.
     fn read(&self, words: &str) -> (Typed, Option<f64>) {
-        let hard = &self.range.hard;
         let number = match parse(words, self.range.unit, self.shown) {
             Ok(number) if self.range.is_whole => number.round(),
             Ok(number) => number,
@@ -105,16 +104,10 @@ impl NumberBox<'_> {
                 return (Typed::Refused(why), None);
             }
         };
-        if !hard.contains(&number) {
-            let [least, most] =
-                [hard.start(), hard.end()].map(|end| self.range.unit.shown(*end).text(*end));
-            let right = match *hard.start() == f64::MIN_POSITIVE {
-                // Zero is refused where the least is the smallest number that there is.
-                true => format!("more than 0 and at most {most}"),
-                false => format!("from {least} to {most}"),
-            };
+        let shown = |end: f64| self.range.unit.shown(end).text(end);
+        if let Some(right) = self.range.bounds.must(number, shown) {
             let why = format!(
-                "{}: \"{}\" is out of range; it must be {right}.",
+                "{}: \"{}\" is out of range; it {right}.",
                 self.label,
                 words.trim()
             );

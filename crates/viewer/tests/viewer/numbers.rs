@@ -211,7 +211,7 @@ fn what_is_out_of_range_is_refused_with_the_range() {
             Selection::Layer(0),
             "Width",
             "0-5",
-            "more than 0 and at most 100 µm",
+            "greater than 0 and at most 100 µm",
         ),
         (Selection::Layer(0), "Width", "1 m", "at most 100 µm"),
         (Selection::Layer(0), "Seed", "-1", "from 0 to"),

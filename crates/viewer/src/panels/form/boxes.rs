@@ -79,7 +79,7 @@ pub(super) fn slider_and_box(
             .on_hover_text(range.tooltip);
         pass_on_focus(ui, &slid, &typed);
         if slid.changed() {
-            *value = on_slider.clamp(*range.hard.start(), *range.hard.end());
+            *value = range.bounds.clamp(on_slider);
         }
         typed.changed() || slid.changed()
     })
