@@ -6,9 +6,8 @@ use hairline_keys::Keyed;
 
 use super::distribution::Distribution;
 use super::laid::Laid;
-use super::ranges::Check;
+use super::ranges::{Check, check_count};
 use super::shapes::check_letters;
-use crate::error::Error;
 use crate::schema::Key;
 
 /// Points of a curve.
@@ -124,22 +123,13 @@ impl Line {
     fn check_outlines(&self, key: &str) -> Check {
         let key_path = format!("{key}.{}", self.key().name);
         match self {
-            Self::Curve { points_m, closed } => check_points(&key_path, points_m.len(), *closed),
+            Self::Curve { points_m, closed } => {
+                let (least, most) = CURVE_POINTS.into_inner();
+                let least = least + usize::from(*closed);
+                check_count(&key_path, points_m.len(), "points", least..=most)
+            }
             Self::Text { text, .. } => check_letters(&key_path, text),
             Self::Svg { .. } => Ok(()),
         }
-    }
-}
-
-fn check_points(key_path: &str, count: usize, is_closed: bool) -> Check {
-    let (least, most) = CURVE_POINTS.into_inner();
-    let least = if is_closed { least + 1 } else { least };
-    match (least..=most).contains(&count) {
-        true => Ok(()),
-        false => Err(Error::new(
-            key_path,
-            format!("found {count} points"),
-            format!("must be from {least} to {most}"),
-        )),
     }
 }

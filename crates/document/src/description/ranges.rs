@@ -1,5 +1,6 @@
 //! Checks of numbers against the bounds of their keys.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use hairline_optics::section::Section;
@@ -183,26 +184,41 @@ pub(super) fn each<T>(key: &str, items: &[T], check: impl Fn(&T, &str) -> Check)
         .try_for_each(|(i, item)| check(item, &format!("{key}[{i}]")))
 }
 
+/// Checks a number of things, called `what`, at `key`.
+pub(super) fn check_count(
+    key: &str,
+    count: usize,
+    what: &str,
+    range: RangeInclusive<usize>,
+) -> Check {
+    let (least, most) = range.into_inner();
+    match Bounds::Within(least as f64, most as f64).must(count as f64, written) {
+        None => Ok(()),
+        Some(right) => Err(Error::new(key, format!("found {count} {what}"), right)),
+    }
+}
+
 /// Depths of one profile.
-const PROFILE_DEPTHS: std::ops::RangeInclusive<usize> = 2..=64;
+const PROFILE_DEPTHS: RangeInclusive<usize> = 2..=64;
 
 /// Checks a cross section; `key_path` is the way to it.
 pub(super) fn check_profile(section: &Section, key: &Key, key_path: &str) -> Check {
     let Section::Listed(depths) = section else {
         return Ok(());
     };
-    let wrong = |found: String, right: String| Err(Error::new(key_path, found, right));
-    if !PROFILE_DEPTHS.contains(&depths.len()) {
-        let (least, most) = PROFILE_DEPTHS.into_inner();
-        let right = format!("must be from {least} to {most}, from the middle to the rim");
-        return wrong(format!("found {} depths", depths.len()), right);
-    }
+    check_count(
+        key_path,
+        depths.len(),
+        "depths from the middle to the rim",
+        PROFILE_DEPTHS,
+    )?;
     key.check_numbers(key_path, &depths[..])?;
     match depths.iter().all(|depth| *depth == 0.0) {
-        true => wrong(
-            "found no depth but 0".to_owned(),
-            "must have one that is not, such as `[1, 0.5, 0]`".to_owned(),
-        ),
+        true => Err(Error::new(
+            key_path,
+            "found no depth but 0",
+            "must have one that is not, such as `[1, 0.5, 0]`",
+        )),
         false => Ok(()),
     }
 }

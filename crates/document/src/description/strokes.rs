@@ -5,7 +5,7 @@ use serde::ser::SerializeMap;
 
 use super::keyed::Keyed;
 use super::panel::{Panel, Rows};
-use super::ranges::Check;
+use super::ranges::{Check, check_count};
 use super::table::Table;
 use crate::error::Error;
 use crate::schema::{Entry, Form, Key};
@@ -74,15 +74,8 @@ pub const STROKE_POINTS: std::ops::RangeInclusive<usize> = 1..=65_536;
 
 impl Stroke {
     fn check_count(&self, key: &str) -> Check {
-        if STROKE_POINTS.contains(&self.points_m.len()) {
-            return Ok(());
-        }
-        let (least, most) = STROKE_POINTS.into_inner();
-        Err(Error::new(
-            format!("{key}.points_m"),
-            format!("found {} points", self.points_m.len()),
-            format!("must be from {least} to {most}"),
-        ))
+        let key = format!("{key}.points_m");
+        check_count(&key, self.points_m.len(), "points", STROKE_POINTS)
     }
 
     /// Refuses a stroke that lays scratches in a layer that does not take it.

@@ -5,6 +5,7 @@ use hairline_scene::Profile;
 
 use crate::description::Distribution;
 use crate::error::Error;
+use crate::schema::Bounds;
 
 /// Size of a groove that a list gives for each scratch.
 pub(crate) struct ListedSize {
@@ -39,13 +40,9 @@ impl ListedSize {
     /// At `key`: a number that is out of range, or none at all.
     pub(crate) fn check(&self, key: impl FnOnce() -> String, value: f64) -> Result<(), Error> {
         let (least, most) = self.range;
-        // Written so that NaN is out of range.
-        match (least..=most).contains(&value) {
-            true => Ok(()),
-            false => {
-                let right = format!("must be from {least} to {most}");
-                Err(Error::new(key(), format!("found {value}"), right))
-            }
+        match Bounds::Within(least, most).must(value, |end| end.to_string()) {
+            None => Ok(()),
+            Some(right) => Err(Error::new(key(), format!("found {value}"), right)),
         }
     }
 }

@@ -46,7 +46,7 @@ fn profiles_that_are_none() {
         ),
         (
             "[1]",
-            ": found 1 depths; must be from 2 to 64, from the middle to the rim",
+            ": found 1 depths from the middle to the rim; must be from 2 to 64",
         ),
         ("[1, 2]", "[1]: found 2; must be from -1 to 1"),
         (
