@@ -63,8 +63,9 @@ fn control_range(key: &Key, control: Option<&Control>, diagonal_m: f64) -> Range
         (least, most) = (1e-3 * least, 1e-3 * most);
     }
     let bounds = match control.bounds {
-        // Their ends do not tell all of them.
-        exact @ (Bounds::Above0(_) | Bounds::Factor(..)) => exact,
+        // What these refuse between their ends is refused here too.
+        Bounds::Above0(_) => Bounds::Above0(most),
+        Bounds::Factor(smallest, _) => Bounds::Factor(smallest, most),
         _ => Bounds::Within(least, most),
     };
     let size = d.powi(control.slider.power_of_size);

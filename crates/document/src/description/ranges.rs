@@ -128,7 +128,8 @@ impl Bounds {
         }
     }
 
-    /// What a number beyond them must be, none for one within. `write` writes an end, in the unit that its reader has.
+    /// What a number beyond them must be; none for one within. NaN is beyond all but [`Bounds::Any`]. `write` writes an end, with its unit where it
+    /// has one.
     pub fn must(self, number: f64, write: impl Fn(f64) -> String) -> Option<String> {
         let from_to = |least: f64, most: f64| match (least..=most).contains(&number) {
             true => None,
@@ -136,7 +137,7 @@ impl Bounds {
         };
         match self {
             Self::Any => None,
-            Self::AtLeast0 => (number < 0.0).then(|| "must be 0 or greater".to_owned()),
+            Self::AtLeast0 => (!(number >= 0.0)).then(|| "must be 0 or greater".to_owned()),
             Self::Within(least, most) => from_to(least, most),
             Self::Above0(most) => (!(number > 0.0 && number <= most))
                 .then(|| format!("must be greater than 0 and at most {}", write(most))),
